@@ -1,0 +1,141 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "src/landscape/curve.h"
+
+#include <gflags/gflags.h>
+
+#include <cmath>
+#include <cstdio>
+#include <iostream>
+
+#include "apps/app.h"
+#include "apps/pair_flags.h"
+#include "src/common/error.h"
+#include "src/common/text.h"
+#include "src/io/output.h"
+#include "src/minimizer/ground_truth_check.h"
+
+DEFINE_double(u_min, -1, "Start of the path; u = 0 is the identity, u = 1 the reference pose.");
+DEFINE_double(u_max, 2, "End of the path.");
+DEFINE_int32(samples, 100, "Poses along the path, both ends included.");
+DEFINE_string(path, "lerp_slerp",
+              "lerp_slerp (the paper's, sec. 3.1) or geodesic (constant twist in SE(3)).");
+DEFINE_string(reference, "ground_truth",
+              "Pose at u = 1: ground_truth as given, or refined by point-to-plane.");
+DEFINE_string(association, "reassociate",
+              "reassociate (pairs of each pose, as in ICP) or frozen (pairs of --frozen_u).");
+DEFINE_double(frozen_u, 1, "Where the frozen pairs are taken.");
+
+namespace icpscape {
+namespace {
+
+void WriteCurves(const std::vector<Curve>& curves, const std::filesystem::path& out) {
+  Table csv({"metric", "u", "rmse", "rms_residual", "cost", "n", "slope_analytic", "slope_numeric",
+             "inlier_ratio"});
+  for (const Curve& curve : curves) {
+    Table pgfplots({"u", "rmse"});
+    for (const CurvePoint& p : curve.points) {
+      csv.AddRow({curve.metric, Number(p.u), Number(p.rmse), Number(p.rms_residual),
+                  Number(p.cost), Number(p.n), Number(p.slope_analytic), Number(p.slope_numeric),
+                  Number(p.inlier_ratio)});
+      pgfplots.AddRow({Number(p.u), Number(p.rmse)});
+    }
+    pgfplots.WritePgfplots(out / (curve.metric + "_rmse.txt"));
+  }
+  csv.WriteCsv(out / "curves.csv");
+}
+
+void PrintMinima(const std::vector<Curve>& curves, double motion_m, Manifest* manifest) {
+  std::printf("%-18s %8s %14s %12s %9s\n", "metric", "argmin u", "off by (m)", "RMSE there", "n");
+  for (const Curve& curve : curves) {
+    const CurvePoint& minimum = curve.Minimum();
+    std::printf("%-18s %8.4f %14.4f %12.6f %9.0f\n", curve.metric.c_str(), minimum.u,
+                std::abs(minimum.u - 1) * motion_m, minimum.rmse, minimum.n);
+    manifest->SetResult("argmin_u_" + curve.metric, minimum.u);
+  }
+}
+
+void CheckFlags(const CurveOptions& options) {
+  CheckPairFlags();
+  options.Check();
+  PathKindFromName(FLAGS_path);
+  if (FLAGS_reference != "ground_truth" && FLAGS_reference != "refined") {
+    throw UsageError("--reference=" + FLAGS_reference + ": expected ground_truth or refined.");
+  }
+  if (FLAGS_association != "reassociate" && FLAGS_association != "frozen") {
+    throw UsageError("--association=" + FLAGS_association + ": expected reassociate or frozen.");
+  }
+}
+
+// Prints how far point-to-plane moves from the ground truth, and returns the pose for u = 1.
+SE3d ReferencePose(const ScanPair& pair, Manifest* manifest) {
+  const SE3d truth = *pair.T_ground_truth;
+  const GroundTruthCheck check =
+      CheckGroundTruth(pair.source, pair.target, truth, ThreadsFromFlags());
+  const double degrees = check.rotation_rad * 180 / M_PI;
+  std::printf("motion: %.4f m, %.4f deg\n", truth.t().norm(),
+              truth.LogRotation().norm() * 180 / M_PI);
+  std::printf("ground-truth check: point-to-plane settles %.4f m, %.4f deg from it\n",
+              check.translation_m, degrees);
+  manifest->SetResult("ground_truth_check_m", check.translation_m);
+  manifest->SetResult("ground_truth_check_deg", degrees);
+  manifest->AddTiming("ground_truth_check");
+  return FLAGS_reference == "refined" ? check.T_refined : truth;
+}
+
+void Landscape() {
+  CurveOptions options;
+  options.u_min = FLAGS_u_min;
+  options.u_max = FLAGS_u_max;
+  options.samples = FLAGS_samples;
+  options.threads = ThreadsFromFlags();
+  CheckFlags(options);
+  const std::filesystem::path out = OutputFolder();
+  const std::vector<std::string> metrics = MetricsFromFlags();
+  Manifest manifest(AppName());
+  RecordFlags(&manifest);
+  const ScanPair pair = LoadPair(metrics, &manifest);
+  if (!pair.T_ground_truth) {
+    throw UsageError("no ground truth: expected --ground_truth=FILE (T_target_source as 4x4 text).");
+  }
+  const SE3d T_reference = ReferencePose(pair, &manifest);
+
+  const ClosestPointMatcher matcher(pair.target, MatchingFromFlags());
+  std::vector<Objective> objectives;
+  for (const std::string& metric : metrics) {
+    objectives.emplace_back(metric, pair.source, pair.target, matcher, LossFromFlags());
+  }
+  const Path path(SE3d(), T_reference, PathKindFromName(FLAGS_path));
+  Matches frozen;
+  std::string association = "re-associated at every pose";
+  if (FLAGS_association == "frozen") {
+    frozen = objectives[0].Match(path.Pose(FLAGS_frozen_u), options.threads);
+    options.frozen = &frozen;
+    association = "pairs frozen at u = " + Number(FLAGS_frozen_u);
+  }
+  std::vector<Curve> curves;
+  {
+    Progress progress("poses", options.samples);
+    curves = EvaluateCurves(objectives, path, options, [&](int done) { progress.Show(done); });
+  }
+  manifest.AddTiming("landscape");
+
+  PrintMinima(curves, T_reference.t().norm(), &manifest);
+  WriteCurves(curves, out);
+  RunPlotScript("plot_curves.py",
+                {(out / "curves.csv").string(), "--out", (out / "landscape").string(), "--title",
+                 pair.title + " (" + association + ")"});
+  manifest.AddTiming("figures");
+  manifest.Write(out / "manifest.json");
+  std::cout << "written: " << (out / "curves.csv").string() << ", landscape.svg, landscape.png, "
+            << "manifest.json\n";
+}
+
+}  // namespace
+}  // namespace icpscape
+
+int main(int argc, char** argv) {
+  return icpscape::RunApp(argc, argv,
+                          "draws the objective functions of ICP along a path of poses from the "
+                          "identity (u = 0) to the true motion (u = 1): the open loop.",
+                          icpscape::Landscape);
+}

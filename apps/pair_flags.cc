@@ -1,0 +1,182 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "apps/pair_flags.h"
+
+#include <gflags/gflags.h>
+
+#include <cmath>
+#include <iostream>
+
+#include "residuals/correspondence.h"
+#include "src/cloud/normals.h"
+#include "src/common/error.h"
+#include "src/common/parallel.h"
+#include "src/common/text.h"
+#include "src/io/kitti.h"
+#include "src/io/output.h"
+#include "src/io/point_files.h"
+#include "src/io/transform.h"
+#include "src/objective/loss.h"
+
+DEFINE_string(kitti_root, "", "Folder of the KITTI odometry data (with sequences/ and poses/).");
+DEFINE_string(sequence, "00", "KITTI sequence.");
+DEFINE_int32(frame, -1, "KITTI scan to register: the source.");
+DEFINE_int32(target_frame, -1, "KITTI scan to register to; -1 is the one before --frame.");
+DEFINE_string(source, "", "Source cloud (.bin, .pcd or .ply), instead of --kitti_root.");
+DEFINE_string(target, "", "Target cloud, with --source.");
+DEFINE_string(ground_truth, "", "Text file of the true 4x4 T_target_source, with --source.");
+DEFINE_double(elevation_correction_deg, 0,
+              "Turn KITTI's points up by this angle (degrees); 0.205 is in use for the HDL-64.");
+DEFINE_string(metrics, "point_to_point,point_to_plane,symmetric",
+              "Metrics, separated by commas; icpscape-list_metrics names them.");
+DEFINE_int32(normal_neighbors, 20, "Neighbours of a normal, the point itself included.");
+DEFINE_double(normal_radius_m, 0, "If positive: all points within this radius instead (m).");
+DEFINE_double(max_distance_m, 0, "Longest distance of a pair (m); 0 is no limit, as in the paper.");
+DEFINE_string(loss, "none",
+              "Loss on each residual: none, huber, soft_l_one, cauchy, arctan, tukey, tolerant.");
+DEFINE_double(loss_scale_m, 0.1, "Length at which the loss bends (m).");
+DEFINE_int32(threads, 0, "Threads; 0 is all of the machine. Results do not depend on it.");
+DEFINE_string(out, "out", "Folder for the results.");
+
+namespace icpscape {
+namespace {
+
+bool FromKitti() { return !FLAGS_kitti_root.empty(); }
+
+int TargetFrame() { return FLAGS_target_frame >= 0 ? FLAGS_target_frame : FLAGS_frame - 1; }
+
+PointCloud Load(const std::string& role, const std::filesystem::path& path, Manifest* manifest) {
+  DroppedPoints dropped;
+  PointCloud cloud = ReadPointFile(path, &dropped);
+  std::cout << role << ": " << path.string() << ", " << cloud.size() << " points";
+  if (dropped.non_finite + dropped.zero > 0) {
+    std::cout << " (dropped: " << dropped.non_finite << " not finite, " << dropped.zero
+              << " at the origin)";
+  }
+  std::cout << "\n";
+  manifest->AddInput(path);
+  manifest->SetResult(role + "_points", static_cast<double>(cloud.size()));
+  manifest->SetResult(role + "_dropped_non_finite", static_cast<double>(dropped.non_finite));
+  manifest->SetResult(role + "_dropped_zero", static_cast<double>(dropped.zero));
+  return cloud;
+}
+
+void LoadKitti(ScanPair* pair, Manifest* manifest) {
+  const KittiSequence sequence(FLAGS_kitti_root, FLAGS_sequence);
+  pair->title = "KITTI " + FLAGS_sequence + ", scan " + std::to_string(FLAGS_frame) + " to " +
+                std::to_string(TargetFrame());
+  pair->T_ground_truth = sequence.RelativeMotion(TargetFrame(), FLAGS_frame);
+  manifest->AddInput(sequence.PosesPath());
+  manifest->AddInput(sequence.CalibrationPath());
+  pair->source = Load("source", sequence.ScanPath(FLAGS_frame), manifest);
+  pair->target = Load("target", sequence.ScanPath(TargetFrame()), manifest);
+}
+
+void LoadFiles(ScanPair* pair, Manifest* manifest) {
+  pair->title = std::filesystem::path(FLAGS_source).filename().string() + " to " +
+                std::filesystem::path(FLAGS_target).filename().string();
+  if (!FLAGS_ground_truth.empty()) {
+    pair->T_ground_truth = ReadTransform(FLAGS_ground_truth);
+    manifest->AddInput(FLAGS_ground_truth);
+  }
+  pair->source = Load("source", FLAGS_source, manifest);
+  pair->target = Load("target", FLAGS_target, manifest);
+}
+
+void AddNormals(const std::string& role, PointCloud* cloud) {
+  NeighborhoodOptions options;
+  options.num_neighbors = FLAGS_normal_neighbors;
+  options.radius_m = FLAGS_normal_radius_m;
+  const std::size_t without = EstimateNormals(options, ThreadsFromFlags(), cloud);
+  if (without > 0) {
+    std::cout << role << ": " << without << " points have no normal\n";
+  }
+}
+
+void Require(bool good, const std::string& flag, const std::string& value,
+             const std::string& expected) {
+  if (!good) {
+    throw UsageError("--" + flag + "=" + value + ": expected " + expected + ".");
+  }
+}
+
+}  // namespace
+
+void CheckPairFlags() {
+  if (FromKitti()) {
+    if (!FLAGS_source.empty() || !FLAGS_target.empty() || !FLAGS_ground_truth.empty()) {
+      throw UsageError(
+          "--kitti_root and --source name two inputs; expected one of them (with --kitti_root the "
+          "ground truth comes from the poses).");
+    }
+    Require(FLAGS_frame >= 0, "frame", std::to_string(FLAGS_frame), "the number of a scan");
+    if (FLAGS_frame == 0 && FLAGS_target_frame < 0) {
+      throw UsageError("--frame=0: no scan comes before it; expected at least 1, or --target_frame.");
+    }
+    Require(FLAGS_target_frame >= -1, "target_frame", std::to_string(FLAGS_target_frame),
+            "the number of a scan, or -1 for the one before --frame");
+  } else if (FLAGS_source.empty() || FLAGS_target.empty()) {
+    throw UsageError(
+        "no input: expected --kitti_root=DIR --frame=N, or --source=FILE --target=FILE.");
+  }
+  Require(FLAGS_normal_neighbors >= 3, "normal_neighbors", std::to_string(FLAGS_normal_neighbors),
+          "at least 3");
+  Require(FLAGS_normal_radius_m >= 0 && std::isfinite(FLAGS_normal_radius_m), "normal_radius_m",
+          Number(FLAGS_normal_radius_m), "a length in metres, or 0");
+  Require(FLAGS_max_distance_m >= 0 && std::isfinite(FLAGS_max_distance_m), "max_distance_m",
+          Number(FLAGS_max_distance_m), "a length in metres, or 0 for no limit");
+  Require(std::abs(FLAGS_elevation_correction_deg) <= 5, "elevation_correction_deg",
+          Number(FLAGS_elevation_correction_deg), "an angle within 5 degrees");
+  Require(FLAGS_threads >= 0 && FLAGS_threads <= 1024, "threads", std::to_string(FLAGS_threads),
+          "0 (all) to 1024");
+  MetricsFromFlags();
+  LossFromFlags();
+}
+
+ScanPair LoadPair(const std::vector<std::string>& metrics, Manifest* manifest) {
+  ScanPair pair;
+  if (FromKitti()) {
+    LoadKitti(&pair, manifest);
+  } else {
+    LoadFiles(&pair, manifest);
+  }
+  CorrectElevation(FLAGS_elevation_correction_deg, &pair.source);
+  CorrectElevation(FLAGS_elevation_correction_deg, &pair.target);
+  manifest->AddTiming("read");
+  // The ground-truth check is point-to-plane.
+  unsigned needs = pair.T_ground_truth ? static_cast<unsigned>(kTargetNormal) : 0U;
+  for (const std::string& metric : metrics) {
+    needs |= MetricNeeds(metric);
+  }
+  if ((needs & kSourceNormal) != 0) {
+    AddNormals("source", &pair.source);
+  }
+  if ((needs & kTargetNormal) != 0) {
+    AddNormals("target", &pair.target);
+  }
+  manifest->AddTiming("normals");
+  return pair;
+}
+
+std::vector<std::string> MetricsFromFlags() {
+  const std::vector<std::string> metrics = Split(FLAGS_metrics);
+  Require(!metrics.empty(), "metrics", FLAGS_metrics, "at least one metric");
+  for (const std::string& metric : metrics) {
+    CheckMetricName(metric);
+  }
+  return metrics;
+}
+
+std::shared_ptr<const ceres::LossFunction> LossFromFlags() {
+  return MakeLoss(FLAGS_loss, FLAGS_loss_scale_m);
+}
+
+MatchingOptions MatchingFromFlags() { return {FLAGS_max_distance_m}; }
+
+int ThreadsFromFlags() { return FLAGS_threads > 0 ? FLAGS_threads : HardwareThreads(); }
+
+std::filesystem::path OutputFolder() {
+  PrepareOutputFolder(FLAGS_out);
+  return FLAGS_out;
+}
+
+}  // namespace icpscape

@@ -1,0 +1,187 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include <gflags/gflags.h>
+
+#include <cmath>
+#include <cstdio>
+#include <iostream>
+
+#include "apps/app.h"
+#include "apps/pair_flags.h"
+#include "src/common/error.h"
+#include "src/common/text.h"
+#include "src/io/output.h"
+#include "src/io/point_files.h"
+#include "src/io/transform.h"
+#include "src/minimizer/ground_truth_check.h"
+#include "src/minimizer/random_starts.h"
+
+DECLARE_string(metrics);
+
+DEFINE_string(initial, "", "Text file of the 4x4 start pose; none is the identity.");
+DEFINE_string(reassociation, "every_step",
+              "every_step (one Ceres step on frozen pairs, then match again) or every_evaluation "
+              "(one Solve whose every pose is matched anew).");
+DEFINE_int32(max_iterations, 50, "Most steps.");
+DEFINE_double(min_step_m, 1e-4, "Converged when a step is shorter than this (m) ...");
+DEFINE_double(min_step_deg, 1e-3, "... and turns by less than this (degrees).");
+DEFINE_int32(starts, 0, "Random starts about the reference, to measure the success rate.");
+DEFINE_double(start_m, 0.5, "Longest translation of a random start (m).");
+DEFINE_double(start_deg, 3, "Largest rotation of a random start (degrees).");
+DEFINE_int32(seed, 1, "Seed of the random starts.");
+
+namespace icpscape {
+namespace {
+
+constexpr double kDegrees = 180 / M_PI;
+
+MinimizerOptions MinimizerFromFlags() {
+  MinimizerOptions options;
+  options.max_iterations = FLAGS_max_iterations;
+  options.min_step_m = FLAGS_min_step_m;
+  options.min_step_rad = FLAGS_min_step_deg / kDegrees;
+  options.threads = ThreadsFromFlags();
+  if (FLAGS_reassociation == "every_evaluation") {
+    options.reassociation = Reassociation::kEveryEvaluation;
+  } else if (FLAGS_reassociation != "every_step") {
+    throw UsageError("--reassociation=" + FLAGS_reassociation +
+                     ": expected every_step or every_evaluation.");
+  }
+  if (options.reassociation == Reassociation::kEveryEvaluation &&
+      gflags::GetCommandLineFlagInfoOrDie("loss").current_value == "tolerant") {
+    throw UsageError("--loss=tolerant curves upwards: expected --reassociation=every_step with it.");
+  }
+  if (FLAGS_max_iterations < 1 || !(FLAGS_min_step_m >= 0) || !(FLAGS_min_step_deg >= 0)) {
+    throw UsageError(
+        "--max_iterations, --min_step_m, --min_step_deg: expected at least 1, 0 and 0.");
+  }
+  if (FLAGS_starts < 0 || !(FLAGS_start_m >= 0) || !(FLAGS_start_deg >= 0) ||
+      !(FLAGS_start_deg < 180)) {
+    throw UsageError("--starts, --start_m, --start_deg: expected at least 0, and below 180 deg.");
+  }
+  return options;
+}
+
+void WriteIterations(const MinimizerSummary& summary, const std::filesystem::path& out) {
+  Table csv({"iteration", "cost", "rmse", "n", "gradient_norm", "step_m", "step_deg", "time_s",
+             "qx", "qy", "qz", "qw", "tx_m", "ty_m", "tz_m"});
+  std::printf("%4s %22s %12s %8s %11s %11s %8s\n", "iter", "cost", "RMSE", "n", "step (m)",
+              "step (deg)", "time (s)");
+  for (std::size_t i = 0; i < summary.iterates.size(); ++i) {
+    const Iterate& it = summary.iterates[i];
+    std::printf("%4zu %22.15g %12.8f %8ld %11.3e %11.3e %8.3f\n", i, it.cost, it.rmse, it.n,
+                it.step_m, it.step_rad * kDegrees, it.time_s);
+    std::vector<std::string> row = {std::to_string(i), Number(it.cost), Number(it.rmse),
+                                    std::to_string(it.n), Number(it.gradient_norm),
+                                    Number(it.step_m), Number(it.step_rad * kDegrees),
+                                    Number(it.time_s)};
+    double x[7];
+    it.T_target_source.ToParameters(x);
+    for (const double value : x) {
+      row.push_back(Number(value));
+    }
+    csv.AddRow(std::move(row));
+  }
+  csv.WriteCsv(out / "iterations.csv");
+}
+
+void PrintDifference(const char* what, const SE3d& T_reference, const SE3d& T) {
+  const SE3d difference = T_reference.Inverse() * T;
+  std::printf("off the %s: %.4f m, %.4f deg\n", what, difference.t().norm(),
+              difference.LogRotation().norm() * kDegrees);
+}
+
+void RunStarts(const Objective& objective, const SE3d& T_reference, MinimizerOptions options,
+               const std::filesystem::path& out, Manifest* manifest) {
+  RandomStartOptions starts;
+  starts.count = FLAGS_starts;
+  starts.translation_m = FLAGS_start_m;
+  starts.rotation_rad = FLAGS_start_deg / kDegrees;
+  starts.seed = static_cast<unsigned>(FLAGS_seed);
+  starts.minimizer = options;
+  std::vector<StartResult> results;
+  {
+    Progress progress("starts", starts.count);
+    results = RunRandomStarts(objective, T_reference, starts,
+                              [&](int done) { progress.Show(done); });
+  }
+  Table csv({"start", "start_m", "start_deg", "end_m", "end_deg", "iterations", "termination",
+             "success"});
+  int successes = 0;
+  for (std::size_t i = 0; i < results.size(); ++i) {
+    const StartResult& r = results[i];
+    successes += r.success ? 1 : 0;
+    csv.AddRow({std::to_string(i), Number(r.start_m), Number(r.start_rad * kDegrees),
+                Number(r.end_m), Number(r.end_rad * kDegrees), std::to_string(r.iterations),
+                TerminationName(r.termination), r.success ? "1" : "0"});
+  }
+  csv.WriteCsv(out / "starts.csv");
+  const double rate = 100.0 * successes / static_cast<double>(results.size());
+  std::printf("random starts up to %g m, %g deg: %d of %zu succeed (%.1f %%; within %g m and %g "
+              "deg of the refined reference)\n",
+              FLAGS_start_m, FLAGS_start_deg, successes, results.size(), rate, kSuccessM,
+              kSuccessRad * kDegrees);
+  manifest->SetResult("success_percent", rate);
+  manifest->AddTiming("starts");
+}
+
+void Register() {
+  CheckPairFlags();
+  const std::vector<std::string> metrics = MetricsFromFlags();
+  if (metrics.size() != 1) {
+    throw UsageError("--metrics=" + FLAGS_metrics + ": expected one metric to minimise.");
+  }
+  const MinimizerOptions options = MinimizerFromFlags();
+  const std::filesystem::path out = OutputFolder();
+  Manifest manifest(AppName());
+  RecordFlags(&manifest);
+  SE3d T_start;
+  if (!FLAGS_initial.empty()) {
+    T_start = ReadTransform(FLAGS_initial);
+    manifest.AddInput(FLAGS_initial);
+  }
+  const ScanPair pair = LoadPair(metrics, &manifest);
+  if (FLAGS_starts > 0 && !pair.T_ground_truth) {
+    throw UsageError("--starts needs a reference: expected --ground_truth or --kitti_root.");
+  }
+
+  const ClosestPointMatcher matcher(pair.target, MatchingFromFlags());
+  const Objective objective(metrics[0], pair.source, pair.target, matcher, LossFromFlags());
+  const MinimizerSummary summary = Minimize(objective, T_start, options);
+  manifest.AddTiming("register");
+  if (!summary.Usable()) {
+    throw ComputationError(metrics[0] + ": " + summary.message);
+  }
+  const SE3d& T = summary.T_target_source();
+  WriteIterations(summary, out);
+  std::printf("%s: %s\nfinal cost: %s\n", TerminationName(summary.termination),
+              summary.message.c_str(), Number(summary.final_cost()).c_str());
+  manifest.SetResult("termination", TerminationName(summary.termination));
+  manifest.SetResult("final_cost", summary.final_cost());
+  manifest.SetResult("matching_passes", summary.matching_passes);
+  WriteTextFile(out / "T_target_source.txt", FormatTransform(T));
+  WritePly(out / "aligned.ply", pair.source.Transformed(T));
+  if (pair.T_ground_truth) {
+    PrintDifference("ground truth", *pair.T_ground_truth, T);
+    const GroundTruthCheck check =
+        CheckGroundTruth(pair.source, pair.target, *pair.T_ground_truth, options.threads);
+    PrintDifference("refined reference", check.T_refined, T);
+    if (FLAGS_starts > 0) {
+      RunStarts(objective, check.T_refined, options, out, &manifest);
+    }
+  }
+  manifest.Write(out / "manifest.json");
+  std::cout << "written: " << (out / "T_target_source.txt").string()
+            << ", iterations.csv, aligned.ply, manifest.json\n";
+}
+
+}  // namespace
+}  // namespace icpscape
+
+int main(int argc, char** argv) {
+  // One metric is minimised; landscape's default names three.
+  gflags::SetCommandLineOptionWithMode("metrics", "point_to_plane", gflags::SET_FLAGS_DEFAULT);
+  return icpscape::RunApp(argc, argv,
+                          "registers two scans: minimises one metric's objective with Ceres, the "
+                          "closed loop.",
+                          icpscape::Register);
+}

@@ -1,0 +1,16 @@
+# SPDX-License-Identifier: BSD-3-Clause
+# tools/setup.sh installs all of these from Debian.
+find_package(Eigen3 3.4 REQUIRED NO_MODULE)
+find_package(Ceres 2.1 REQUIRED)
+find_package(glog REQUIRED)
+find_package(gflags REQUIRED)
+find_package(TBB REQUIRED)
+find_package(OpenSSL REQUIRED COMPONENTS Crypto)
+find_package(nanoflann REQUIRED)
+find_package(nlohmann_json REQUIRED)
+find_package(PCL 1.12 REQUIRED COMPONENTS common io)
+
+# PCL's own target asks every user for SSE4 flags and for VTK; reading files needs neither.
+add_library(icpscape_pcl INTERFACE)
+target_include_directories(icpscape_pcl SYSTEM INTERFACE ${PCL_INCLUDE_DIRS})
+target_link_libraries(icpscape_pcl INTERFACE pcl_common pcl_io)

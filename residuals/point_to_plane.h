@@ -1,0 +1,45 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#ifndef ICPSCAPE_RESIDUALS_POINT_TO_PLANE_H_
+#define ICPSCAPE_RESIDUALS_POINT_TO_PLANE_H_
+
+#include "residuals/correspondence.h"
+
+namespace icpscape {
+
+/// Point-to-plane distance [Chen & Medioni 1992; paper sec. 2.2].
+///   r(T) = n_t . (R p_s + t - q_t)             1x1, metres
+///   J    = n_t^T R [ -skew(p_s) | I ]          1x6, T <- T Exp([omega; v])
+/// Smooth everywhere; the sign of n_t is irrelevant; blind to motion within the plane.
+struct PointToPlane {
+  static constexpr char kName[] = "point_to_plane";
+  static constexpr char kFormula[] = "(T p - q) . n_q";
+  static constexpr char kSource[] = "Chen & Medioni 1992; paper sec. 2.2";
+  static constexpr int kDim = 1;
+  static constexpr unsigned kNeeds = kTargetNormal;
+
+  Vec3 p_source;
+  Vec3 q_target;
+  Vec3 n_target;
+
+  static PointToPlane From(const Correspondence& c) {
+    return {c.p_source, c.q_target, c.n_target};
+  }
+
+  template <class S>
+  Vec<S, kDim> Residual(const SE3<S>& T_target_source) const {
+    const Vec<S, 3> e = T_target_source * p_source.cast<S>() - q_target.cast<S>();
+    return Vec<S, kDim>(n_target.cast<S>().dot(e));
+  }
+
+  Mat<double, kDim, 6> Jacobian(const SE3d& T_target_source) const {
+    // a^T [-skew(p)] = (p x a)^T, with a the normal seen from the source frame.
+    const Vec3 a = T_target_source.R().transpose() * n_target;
+    Mat<double, kDim, 6> J;
+    J << p_source.cross(a).transpose(), a.transpose();
+    return J;
+  }
+};
+
+}  // namespace icpscape
+
+#endif  // ICPSCAPE_RESIDUALS_POINT_TO_PLANE_H_

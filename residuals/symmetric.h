@@ -1,0 +1,187 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#ifndef ICPSCAPE_RESIDUALS_SYMMETRIC_H_
+#define ICPSCAPE_RESIDUALS_SYMMETRIC_H_
+
+#include "residuals/correspondence.h"
+
+// Four metrics go by the name "symmetric"; they differ in what turns with T. With
+// e = R p_s + t - q_t and both normals oriented alike (towards the sensor):
+//
+//   symmetric          e . (n_s + n_t)                 as the paper prints it: normals stay put
+//   symmetric_rotated  e . (R n_s + n_t)               Rusinkiewicz's split form, normals turned
+//   symmetric_split    e . R^1/2 (n_s + n_t)           Rusinkiewicz's split form, normals fixed
+//   two_plane          [ e . n_t ; e . R n_s ]         both point-to-plane distances
+//
+// Rusinkiewicz 2019 splits the rotation, R = Q Q, and writes (Q p - Q^-1 q + t') . n with t = Q t'.
+// Multiplied by Q that is e . Q n: with n = Q n_s + Q^-1 n_t the rotated form, with
+// n = n_s + n_t the split form. |n_s + n_t| is near 2, so the first three read about twice the
+// point-to-plane distance.
+
+namespace icpscape {
+
+/// Symmetric objective as printed [paper sec. 2.3]: T acts on the point only.
+///   r(T) = (R p_s + t - q_t) . (n_s + n_t)        1x1, metres (about twice the distance)
+///   J    = m^T R [ -skew(p_s) | I ],  m = n_s + n_t
+/// Smooth everywhere. n_s is added unturned, so it depends on the choice of frames: turning the
+/// target frame alone changes it.
+struct Symmetric {
+  static constexpr char kName[] = "symmetric";
+  static constexpr char kFormula[] = "(T p - q) . (n_p + n_q)";
+  static constexpr char kSource[] = "paper sec. 2.3, after Rusinkiewicz 2019";
+  static constexpr int kDim = 1;
+  static constexpr unsigned kNeeds = kSourceNormal | kTargetNormal;
+
+  Vec3 p_source;
+  Vec3 q_target;
+  Vec3 n_sum;  ///< n_source + n_target, components added as they are.
+
+  static Symmetric From(const Correspondence& c) {
+    return {c.p_source, c.q_target, c.n_source + c.n_target};
+  }
+
+  template <class S>
+  Vec<S, kDim> Residual(const SE3<S>& T_target_source) const {
+    const Vec<S, 3> e = T_target_source * p_source.cast<S>() - q_target.cast<S>();
+    return Vec<S, kDim>(n_sum.cast<S>().dot(e));
+  }
+
+  Mat<double, kDim, 6> Jacobian(const SE3d& T_target_source) const {
+    const Vec3 a = T_target_source.R().transpose() * n_sum;
+    Mat<double, kDim, 6> J;
+    J << p_source.cross(a).transpose(), a.transpose();
+    return J;
+  }
+};
+
+/// Symmetric objective whose source normal turns with the point [Rusinkiewicz 2019, eq. 10, split
+/// with rotated normals].
+///   r(T) = e . (R n_s + n_t),  e = R p_s + t - q_t              1x1, metres
+///   J    = m^T R [ -skew(p_s) | I ] + [ -e^T R skew(n_s) | 0 ],  m = R n_s + n_t
+/// Smooth everywhere; invariant to the choice of either frame.
+struct SymmetricRotated {
+  static constexpr char kName[] = "symmetric_rotated";
+  static constexpr char kFormula[] = "(T p - q) . (R n_p + n_q)";
+  static constexpr char kSource[] = "Rusinkiewicz 2019, rotated normals";
+  static constexpr int kDim = 1;
+  static constexpr unsigned kNeeds = kSourceNormal | kTargetNormal;
+
+  Vec3 p_source;
+  Vec3 q_target;
+  Vec3 n_source;
+  Vec3 n_target;
+
+  static SymmetricRotated From(const Correspondence& c) {
+    return {c.p_source, c.q_target, c.n_source, c.n_target};
+  }
+
+  template <class S>
+  Vec<S, kDim> Residual(const SE3<S>& T_target_source) const {
+    const Vec<S, 3> e = T_target_source * p_source.cast<S>() - q_target.cast<S>();
+    const Vec<S, 3> m = T_target_source.R() * n_source.cast<S>() + n_target.cast<S>();
+    return Vec<S, kDim>(m.dot(e));
+  }
+
+  Mat<double, kDim, 6> Jacobian(const SE3d& T_target_source) const {
+    const Mat3& R = T_target_source.R();
+    const Vec3 a = n_source + R.transpose() * n_target;                     // R^T m
+    const Vec3 b = p_source + R.transpose() * (T_target_source.t() - q_target);  // R^T e
+    Mat<double, kDim, 6> J;
+    J << (p_source.cross(a) + n_source.cross(b)).transpose(), a.transpose();
+    return J;
+  }
+};
+
+/// Symmetric objective with the rotation split between the clouds and the normals fixed
+/// [Rusinkiewicz 2019, eq. 9]: each cloud turns half way, so the sum of normals turns by R^1/2.
+///   r(T) = e . H m,  H = R^1/2, m = n_s + n_t, e = R p_s + t - q_t       1x1, metres
+///   J    = m^T H^T R [ -skew(p_s) | I ] + [ -e^T H skew(m) M | 0 ],
+///   M    = (I + skew(h_v) / h_w) / 2,  [h_w; h_v] the quaternion of H
+/// M is the derivative of Log(H) with respect to omega: the quotient of right Jacobians
+/// J_r(phi/2) J_r(phi)^-1 / 2 collapses to tan(theta/4). Not smooth where R turns by pi (H jumps).
+/// Depends on the choice of frames, as Symmetric does.
+struct SymmetricSplit {
+  static constexpr char kName[] = "symmetric_split";
+  static constexpr char kFormula[] = "(T p - q) . R^1/2 (n_p + n_q)";
+  static constexpr char kSource[] = "Rusinkiewicz 2019, fixed normals";
+  static constexpr int kDim = 1;
+  static constexpr unsigned kNeeds = kSourceNormal | kTargetNormal;
+
+  Vec3 p_source;
+  Vec3 q_target;
+  Vec3 n_sum;
+
+  static SymmetricSplit From(const Correspondence& c) {
+    return {c.p_source, c.q_target, c.n_source + c.n_target};
+  }
+
+  /// The rotation by half of R's angle about R's axis: q^1/2 = (1 + q) / |1 + q|.
+  template <class S>
+  static Eigen::Quaternion<S> SquareRoot(const SE3<S>& T_target_source) {
+    Eigen::Quaternion<S> h = T_target_source.Quaternion();
+    h.w() += S(1);
+    h.normalize();
+    return h;
+  }
+
+  template <class S>
+  Vec<S, kDim> Residual(const SE3<S>& T_target_source) const {
+    const Vec<S, 3> e = T_target_source * p_source.cast<S>() - q_target.cast<S>();
+    const Vec<S, 3> m = SquareRoot(T_target_source).toRotationMatrix() * n_sum.cast<S>();
+    return Vec<S, kDim>(m.dot(e));
+  }
+
+  Mat<double, kDim, 6> Jacobian(const SE3d& T_target_source) const {
+    const Eigen::Quaterniond h = SquareRoot(T_target_source);
+    const Mat3 H = h.toRotationMatrix();
+    const Vec3 a = T_target_source.R().transpose() * (H * n_sum);
+    const Vec3 e = T_target_source * p_source - q_target;
+    const Vec3 b = n_sum.cross(H.transpose() * e);       // (-e^T H skew(m))^T
+    const Vec3 axis = h.vec() / h.w();                   // tan(theta/4) about the axis
+    const Vec3 turn = (b + b.cross(axis)) / 2;           // (b^T M)^T
+    Mat<double, kDim, 6> J;
+    J << (p_source.cross(a) + turn).transpose(), a.transpose();
+    return J;
+  }
+};
+
+/// Both point-to-plane distances of a pair, stacked (the form that Rusinkiewicz 2019 compares with).
+///   r(T) = [ e . n_t ; e . R n_s ],  e = R p_s + t - q_t                2x1, metres
+///   J    = [ n_t^T R [ -skew(p_s) | I ] ;
+///            n_s^T [ -skew(p_s) | I ] + [ (n_s x b)^T | 0 ],  b = R^T e ]
+/// Smooth everywhere; signs of the normals are irrelevant; invariant to the choice of either frame.
+struct TwoPlane {
+  static constexpr char kName[] = "two_plane";
+  static constexpr char kFormula[] = "[(T p - q) . n_q ; (T p - q) . R n_p]";
+  static constexpr char kSource[] = "compared with in Rusinkiewicz 2019";
+  static constexpr int kDim = 2;
+  static constexpr unsigned kNeeds = kSourceNormal | kTargetNormal;
+
+  Vec3 p_source;
+  Vec3 q_target;
+  Vec3 n_source;
+  Vec3 n_target;
+
+  static TwoPlane From(const Correspondence& c) {
+    return {c.p_source, c.q_target, c.n_source, c.n_target};
+  }
+
+  template <class S>
+  Vec<S, kDim> Residual(const SE3<S>& T_target_source) const {
+    const Vec<S, 3> e = T_target_source * p_source.cast<S>() - q_target.cast<S>();
+    return {n_target.cast<S>().dot(e), (T_target_source.R() * n_source.cast<S>()).dot(e)};
+  }
+
+  Mat<double, kDim, 6> Jacobian(const SE3d& T_target_source) const {
+    const Mat3& R = T_target_source.R();
+    const Vec3 a = R.transpose() * n_target;
+    const Vec3 b = p_source + R.transpose() * (T_target_source.t() - q_target);  // R^T e
+    Mat<double, kDim, 6> J;
+    J.row(0) << p_source.cross(a).transpose(), a.transpose();
+    J.row(1) << (p_source.cross(n_source) + n_source.cross(b)).transpose(), n_source.transpose();
+    return J;
+  }
+};
+
+}  // namespace icpscape
+
+#endif  // ICPSCAPE_RESIDUALS_SYMMETRIC_H_

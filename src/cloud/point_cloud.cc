@@ -1,0 +1,61 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "src/cloud/point_cloud.h"
+
+#include <cmath>
+
+namespace icpscape {
+namespace {
+
+void SelectArray(const std::vector<float>& in, const std::vector<char>& keep,
+                 std::vector<float>* out) {
+  for (std::size_t i = 0; i < in.size(); ++i) {
+    if (keep[i] != 0) {
+      out->push_back(in[i]);
+    }
+  }
+}
+
+}  // namespace
+
+PointCloud PointCloud::Select(const std::vector<char>& keep) const {
+  PointCloud out;
+  for (const auto array : {&PointCloud::x, &PointCloud::y, &PointCloud::z, &PointCloud::intensity,
+                           &PointCloud::nx, &PointCloud::ny, &PointCloud::nz}) {
+    SelectArray(this->*array, keep, &(out.*array));
+  }
+  return out;
+}
+
+PointCloud PointCloud::Transformed(const SE3d& T_other_this) const {
+  PointCloud out = *this;
+  for (std::size_t i = 0; i < size(); ++i) {
+    const Eigen::Vector3f p = (T_other_this * Point(i)).cast<float>();
+    out.x[i] = p.x(), out.y[i] = p.y(), out.z[i] = p.z();
+  }
+  for (std::size_t i = 0; i < nx.size(); ++i) {
+    const Eigen::Vector3f n = (T_other_this.R() * Normal(i)).cast<float>();
+    out.nx[i] = n.x(), out.ny[i] = n.y(), out.nz[i] = n.z();
+  }
+  return out;
+}
+
+DroppedPoints DropInvalidPoints(PointCloud* cloud) {
+  DroppedPoints dropped;
+  std::vector<char> keep(cloud->size(), 1);
+  for (std::size_t i = 0; i < cloud->size(); ++i) {
+    const float x = cloud->x[i], y = cloud->y[i], z = cloud->z[i];
+    if (!std::isfinite(x) || !std::isfinite(y) || !std::isfinite(z)) {
+      ++dropped.non_finite;
+      keep[i] = 0;
+    } else if (x == 0 && y == 0 && z == 0) {
+      ++dropped.zero;
+      keep[i] = 0;
+    }
+  }
+  if (dropped.non_finite + dropped.zero > 0) {
+    *cloud = cloud->Select(keep);
+  }
+  return dropped;
+}
+
+}  // namespace icpscape

@@ -1,0 +1,24 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#ifndef ICPSCAPE_SRC_COMMON_TEXT_H_
+#define ICPSCAPE_SRC_COMMON_TEXT_H_
+
+#include <string>
+#include <vector>
+
+namespace icpscape {
+
+/// The shortest decimal text that reads back as the same double.
+std::string Number(double value);
+
+/// With that many digits after the point, for people.
+std::string Fixed(double value, int digits);
+
+/// "a, b, c".
+std::string Join(const std::vector<std::string>& parts, const std::string& separator = ", ");
+
+/// "a,b,c" -> {a, b, c}; empty parts are dropped.
+std::vector<std::string> Split(const std::string& text, char separator = ',');
+
+}  // namespace icpscape
+
+#endif  // ICPSCAPE_SRC_COMMON_TEXT_H_

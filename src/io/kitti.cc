@@ -1,0 +1,141 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "src/io/kitti.h"
+
+#include <array>
+#include <cmath>
+#include <cstdint>
+#include <cstdio>
+#include <cstring>
+#include <fstream>
+#include <sstream>
+
+#include "src/common/error.h"
+#include "src/io/transform.h"
+
+namespace icpscape {
+namespace {
+
+std::ifstream Open(const std::filesystem::path& path, const char* what) {
+  std::ifstream in(path, std::ios::binary);
+  if (!in || std::filesystem::is_directory(path)) {
+    throw InputError(path.string() + ": cannot be read; expected " + what + ".");
+  }
+  return in;
+}
+
+}  // namespace
+
+PointCloud ReadVelodyne(const std::filesystem::path& path, DroppedPoints* dropped) {
+  std::ifstream in = Open(path, "a KITTI velodyne scan");
+  const std::uintmax_t bytes = std::filesystem::file_size(path);
+  constexpr std::size_t kRecord = 4 * sizeof(float);
+  if (bytes % kRecord != 0) {
+    throw InputError(path.string() + ": " + std::to_string(bytes) +
+                     " bytes; expected a multiple of 16 (x y z intensity as float32).");
+  }
+  std::vector<float> values(static_cast<std::size_t>(bytes) / sizeof(float));
+  in.read(reinterpret_cast<char*>(values.data()), static_cast<std::streamsize>(bytes));
+  if (!in) {
+    throw InputError(path.string() + ": reading stopped before byte " + std::to_string(bytes) +
+                     "; expected the whole scan.");
+  }
+  PointCloud cloud;
+  const std::size_t size = values.size() / 4;
+  for (const auto array :
+       {&PointCloud::x, &PointCloud::y, &PointCloud::z, &PointCloud::intensity}) {
+    (cloud.*array).resize(size);
+  }
+  for (std::size_t i = 0; i < size; ++i) {
+    cloud.x[i] = values[4 * i];
+    cloud.y[i] = values[4 * i + 1];
+    cloud.z[i] = values[4 * i + 2];
+    cloud.intensity[i] = values[4 * i + 3];
+  }
+  *dropped = DropInvalidPoints(&cloud);
+  if (cloud.empty()) {
+    throw InputError(path.string() + ": no usable point among " + std::to_string(size) +
+                     "; expected at least one that is finite and not (0, 0, 0).");
+  }
+  return cloud;
+}
+
+void CorrectElevation(double angle_deg, PointCloud* cloud) {
+  if (angle_deg == 0) {
+    return;
+  }
+  const double angle = angle_deg * M_PI / 180;
+  for (std::size_t i = 0; i < cloud->size(); ++i) {
+    const Vec3 p = cloud->Point(i);
+    const double horizontal = std::hypot(p.x(), p.y());
+    if (horizontal == 0) {
+      continue;
+    }
+    const double elevation = std::atan2(p.z(), horizontal) + angle;
+    const double scale = p.norm() * std::cos(elevation) / horizontal;
+    cloud->x[i] = static_cast<float>(p.x() * scale);
+    cloud->y[i] = static_cast<float>(p.y() * scale);
+    cloud->z[i] = static_cast<float>(p.norm() * std::sin(elevation));
+  }
+}
+
+KittiSequence::KittiSequence(std::filesystem::path root, std::string sequence)
+    : root_(std::move(root)), sequence_(std::move(sequence)) {
+  const std::filesystem::path folder = root_ / "sequences" / sequence_;
+  if (!std::filesystem::is_directory(folder)) {
+    throw InputError(folder.string() + ": no such folder; expected a KITTI odometry sequence.");
+  }
+}
+
+std::filesystem::path KittiSequence::ScanPath(int frame) const {
+  std::array<char, 16> name;
+  std::snprintf(name.data(), name.size(), "%06d.bin", frame);
+  return root_ / "sequences" / sequence_ / "velodyne" / name.data();
+}
+
+std::filesystem::path KittiSequence::PosesPath() const {
+  return root_ / "poses" / (sequence_ + ".txt");
+}
+
+std::filesystem::path KittiSequence::CalibrationPath() const {
+  return root_ / "sequences" / sequence_ / "calib.txt";
+}
+
+SE3d KittiSequence::RelativeMotion(int to, int from) const {
+  const SE3d Tr = ReadKittiCalibration(CalibrationPath());
+  const std::vector<SE3d> poses = ReadKittiPoses(PosesPath());
+  for (const int frame : {to, from}) {
+    if (frame < 0 || static_cast<std::size_t>(frame) >= poses.size()) {
+      throw InputError(PosesPath().string() + ": " + std::to_string(poses.size()) +
+                       " rows; expected a row for frame " + std::to_string(frame) + ".");
+    }
+  }
+  return Tr.Inverse() * poses[static_cast<std::size_t>(to)].Inverse() *
+         poses[static_cast<std::size_t>(from)] * Tr;
+}
+
+SE3d ReadKittiCalibration(const std::filesystem::path& path) {
+  std::ifstream in = Open(path, "a KITTI calib.txt");
+  std::string line;
+  for (int number = 1; std::getline(in, line); ++number) {
+    if (line.rfind("Tr:", 0) == 0 || line.rfind("Tr_velo_to_cam:", 0) == 0) {
+      return ParseTransform(line.substr(line.find(':') + 1),
+                            path.string() + ":" + std::to_string(number));
+    }
+  }
+  throw InputError(path.string() + ": no line begins with \"Tr:\"; expected the 3x4 transform " +
+                   "from lidar to camera.");
+}
+
+std::vector<SE3d> ReadKittiPoses(const std::filesystem::path& path) {
+  std::ifstream in = Open(path, "a KITTI pose file");
+  std::vector<SE3d> poses;
+  std::string line;
+  for (int number = 1; std::getline(in, line); ++number) {
+    if (line.find_first_not_of(" \t\r") != std::string::npos) {
+      poses.push_back(ParseTransform(line, path.string() + ":" + std::to_string(number)));
+    }
+  }
+  return poses;
+}
+
+}  // namespace icpscape

@@ -1,0 +1,72 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "src/io/output.h"
+
+#include <glog/logging.h>
+#include <unistd.h>
+
+#include <fstream>
+#include <system_error>
+
+#include "src/common/error.h"
+#include "src/common/text.h"
+
+namespace icpscape {
+
+void WriteThenRename(const std::filesystem::path& path,
+                     const std::function<bool(const std::filesystem::path&)>& write) {
+  // The extension is kept: some writers go by it.
+  std::filesystem::path part = path;
+  part.replace_filename("." + std::to_string(getpid()) + "." + path.filename().string());
+  std::error_code error;
+  bool written = false;
+  try {
+    written = write(part);
+  } catch (const std::exception&) {
+    written = false;
+  }
+  if (written) {
+    std::filesystem::rename(part, path, error);
+  }
+  if (!written || error) {
+    std::filesystem::remove(part, error);
+    throw InputError(path.string() + ": cannot be written; expected a writable folder with space.");
+  }
+}
+
+void WriteTextFile(const std::filesystem::path& path, const std::string& text) {
+  WriteThenRename(path, [&](const std::filesystem::path& part) {
+    std::ofstream out(part, std::ios::binary);
+    out << text;
+    out.close();
+    return out.good();
+  });
+}
+
+void PrepareOutputFolder(const std::filesystem::path& folder) {
+  std::error_code error;
+  std::filesystem::create_directories(folder, error);
+  const std::filesystem::path probe = folder / (".probe." + std::to_string(getpid()));
+  std::ofstream out(probe);
+  out << "probe";
+  out.close();
+  const bool writable = out.good();
+  std::filesystem::remove(probe, error);
+  if (!writable) {
+    throw InputError(folder.string() + ": cannot be written; expected a folder for the results.");
+  }
+}
+
+void Table::AddRow(std::vector<std::string> cells) {
+  CHECK_EQ(cells.size(), columns_.size());
+  rows_.push_back(std::move(cells));
+}
+
+void Table::Write(const std::filesystem::path& path, const std::string& separator) const {
+  std::string text = Join(columns_, separator) + "\n";
+  for (const std::vector<std::string>& row : rows_) {
+    text += Join(row, separator) + "\n";
+  }
+  WriteTextFile(path, text);
+}
+
+}  // namespace icpscape

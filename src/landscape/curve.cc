@@ -1,0 +1,112 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "src/landscape/curve.h"
+
+#include <algorithm>
+#include <cmath>
+#include <mutex>
+
+#include "src/common/error.h"
+#include "src/common/parallel.h"
+#include "src/common/text.h"
+
+namespace icpscape {
+namespace {
+
+// Central differences inside, one-sided of second order at the ends (of first order for two
+// samples).
+void SetNumericSlopes(std::vector<CurvePoint>* points) {
+  std::vector<CurvePoint>& p = *points;
+  const std::size_t last = p.size() - 1;
+  const double h = (p[last].u - p[0].u) / static_cast<double>(last);
+  if (last == 1) {
+    p[0].slope_numeric = p[1].slope_numeric = (p[1].rmse - p[0].rmse) / h;
+    return;
+  }
+  for (std::size_t i = 1; i < last; ++i) {
+    p[i].slope_numeric = (p[i + 1].rmse - p[i - 1].rmse) / (2 * h);
+  }
+  p[0].slope_numeric = (-3 * p[0].rmse + 4 * p[1].rmse - p[2].rmse) / (2 * h);
+  p[last].slope_numeric = (3 * p[last].rmse - 4 * p[last - 1].rmse + p[last - 2].rmse) / (2 * h);
+}
+
+CurvePoint MakePoint(double u, const Evaluation& evaluation, std::size_t num_source_points,
+                     const Vec6& body_twist) {
+  CurvePoint point;
+  point.u = u;
+  point.rmse = evaluation.Rmse();
+  point.rms_residual = evaluation.RmsResidual();
+  point.cost = evaluation.sums.cost;
+  point.n = static_cast<double>(evaluation.n());
+  point.inlier_ratio = point.n / static_cast<double>(num_source_points);
+  // At a perfect fit the slope of a root is 0/0; the curve's own minimum has slope 0.
+  point.slope_analytic = point.rmse > 0 ? evaluation.RmseSlope(body_twist) : 0;
+  return point;
+}
+
+}  // namespace
+
+const CurvePoint& Curve::Minimum() const {
+  return *std::min_element(
+      points.begin(), points.end(),
+      [](const CurvePoint& a, const CurvePoint& b) { return a.rmse < b.rmse; });
+}
+
+void CurveOptions::Check() const {
+  if (samples < 2) {
+    throw UsageError("samples " + std::to_string(samples) + ": expected at least 2.");
+  }
+  if (!(std::isfinite(u_min) && std::isfinite(u_max) && u_min < u_max)) {
+    throw UsageError("u from " + Number(u_min) + " to " + Number(u_max) +
+                     ": expected u_min below u_max.");
+  }
+}
+
+double CurveOptions::U(int index) const {
+  // Symmetric in its ends, so that u = 0 and u = 1 are hit exactly where the grid has them.
+  const int last = samples - 1;
+  return (u_min * (last - index) + u_max * index) / last;
+}
+
+std::vector<Curve> EvaluateCurves(const std::vector<Objective>& objectives, const Path& path,
+                                  const CurveOptions& options,
+                                  const std::function<void(int)>& progress) {
+  options.Check();
+  std::vector<Curve> curves(objectives.size());
+  for (std::size_t m = 0; m < objectives.size(); ++m) {
+    curves[m].metric = objectives[m].metric();
+    curves[m].points.resize(static_cast<std::size_t>(options.samples));
+  }
+  if (objectives.empty()) {
+    return curves;
+  }
+  std::mutex mutex;
+  int done = 0;
+  ParallelFor(static_cast<std::size_t>(options.samples), options.threads, [&](std::size_t i) {
+    const double u = options.U(static_cast<int>(i));
+    const SE3d T_u = path.Pose(u);
+    Matches own;
+    if (options.frozen == nullptr) {
+      own = objectives[0].Match(T_u, 1);
+    }
+    const Matches& matches = options.frozen == nullptr ? own : *options.frozen;
+    for (std::size_t m = 0; m < objectives.size(); ++m) {
+      const Evaluation evaluation = objectives[m].Evaluate(T_u, matches, 1);
+      if (evaluation.n() == 0) {
+        throw ComputationError("no correspondence is left for " + objectives[m].metric() +
+                               " at u = " + Number(u) + ".");
+      }
+      curves[m].points[i] =
+          MakePoint(u, evaluation, objectives[m].num_source_points(), path.BodyTwist(u));
+    }
+    if (progress) {
+      const std::lock_guard<std::mutex> lock(mutex);
+      progress(++done);
+    }
+  });
+  for (Curve& curve : curves) {
+    SetNumericSlopes(&curve.points);
+  }
+  return curves;
+}
+
+}  // namespace icpscape

@@ -1,0 +1,58 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#ifndef ICPSCAPE_SRC_LANDSCAPE_CURVE_H_
+#define ICPSCAPE_SRC_LANDSCAPE_CURVE_H_
+
+#include <functional>
+#include <string>
+#include <vector>
+
+#include "src/landscape/path.h"
+#include "src/objective/objective.h"
+
+namespace icpscape {
+
+/// One sample of the open loop: the objective at T_u.
+struct CurvePoint {
+  double u = 0;
+  double rmse = 0;            ///< sqrt(eps / n), eps as the paper prints it.
+  double rms_residual = 0;    ///< sqrt(sum |r|^2 / n).
+  double cost = 0;            ///< 1/2 sum rho(|r|^2), what the solver minimises.
+  double n = 0;               ///< Pairs that took part.
+  double inlier_ratio = 0;    ///< n over the number of source points.
+  double slope_analytic = 0;  ///< d rmse / du from the objective's gradient and the body twist.
+  double slope_numeric = 0;   ///< d rmse / du of the plotted curve, by differences of its samples.
+};
+
+/// The objective of one metric along a path.
+struct Curve {
+  std::string metric;
+  std::vector<CurvePoint> points;
+
+  /// The sample of least rmse (the first of several); points must not be empty.
+  const CurvePoint& Minimum() const;
+};
+
+struct CurveOptions {
+  double u_min = -1;
+  double u_max = 2;
+  int samples = 100;  ///< Both ends included.
+  int threads = 1;
+  /// Where set, all poses are evaluated with these matches instead of being re-associated.
+  const Matches* frozen = nullptr;
+
+  /// Throws UsageError for fewer than two samples or an empty interval.
+  void Check() const;
+  double U(int index) const;
+};
+
+/// Evaluates all objectives along the path, in parallel over poses; bit-identical for any number of
+/// threads. All objectives must share one source, target and matcher: each pose is matched once.
+/// `progress` (if any) is called with the number of poses done, from any thread but one at a time.
+/// Throws ComputationError where a pose leaves a metric without correspondences.
+std::vector<Curve> EvaluateCurves(const std::vector<Objective>& objectives, const Path& path,
+                                  const CurveOptions& options,
+                                  const std::function<void(int)>& progress = nullptr);
+
+}  // namespace icpscape
+
+#endif  // ICPSCAPE_SRC_LANDSCAPE_CURVE_H_

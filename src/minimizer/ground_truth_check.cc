@@ -1,0 +1,26 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "src/minimizer/ground_truth_check.h"
+
+#include "src/common/error.h"
+
+namespace icpscape {
+
+GroundTruthCheck CheckGroundTruth(const PointCloud& source, const PointCloud& target,
+                                  const SE3d& T_ground_truth, int threads) {
+  const ClosestPointMatcher matcher(target, {kGroundTruthCheckGateM});
+  const Objective objective("point_to_plane", source, target, matcher);
+  MinimizerOptions options;
+  options.threads = threads;
+  GroundTruthCheck check;
+  check.summary = Minimize(objective, T_ground_truth, options);
+  if (!check.summary.Usable()) {
+    throw ComputationError("ground-truth check: " + check.summary.message);
+  }
+  check.T_refined = check.summary.T_target_source();
+  const SE3d difference = T_ground_truth.Inverse() * check.T_refined;
+  check.translation_m = difference.t().norm();
+  check.rotation_rad = difference.LogRotation().norm();
+  return check;
+}
+
+}  // namespace icpscape

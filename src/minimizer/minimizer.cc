@@ -1,0 +1,279 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "src/minimizer/minimizer.h"
+
+#include <ceres/iteration_callback.h>
+#include <ceres/problem.h>
+#include <ceres/solver.h>
+#include <glog/logging.h>
+
+#include <algorithm>
+#include <array>
+#include <chrono>
+#include <memory>
+
+#include "residuals/adapters/ceres.h"
+
+namespace icpscape {
+namespace {
+
+using Parameters = std::array<double, 7>;
+
+// The pose as Ceres sees it: through the parameters and back, so that both sides of the loop
+// evaluate bit for bit the same pose.
+Parameters ToParameters(const SE3d& T) {
+  Parameters x;
+  T.ToParameters(x.data());
+  return x;
+}
+
+ceres::Problem::Options UnownedLoss() {
+  ceres::Problem::Options options;
+  options.loss_function_ownership = ceres::DO_NOT_TAKE_OWNERSHIP;
+  return options;
+}
+
+ceres::Solver::Options SolverOptions() {
+  ceres::Solver::Options options;
+  options.linear_solver_type = ceres::DENSE_QR;
+  options.logging_type = ceres::SILENT;
+  // Only our own stop rules end the loop.
+  options.function_tolerance = 0;
+  options.gradient_tolerance = 0;
+  options.parameter_tolerance = 0;
+  // Next to no damping: as long as steps are accepted this is Gauss-Newton.
+  options.initial_trust_region_radius = 1e8;
+  return options;
+}
+
+// The bookkeeping that both modes share.
+class Loop {
+ public:
+  Loop(const Objective& objective, const MinimizerOptions& options)
+      : objective_(objective), options_(options) {}
+
+  const MinimizerOptions& options() const { return options_; }
+
+  Evaluation Reassociated(const SE3d& T, Matches* matches) {
+    *matches = objective_.Match(T, options_.threads);
+    ++summary_.matching_passes;
+    return Frozen(T, *matches);
+  }
+  Evaluation Frozen(const SE3d& T, const Matches& matches) const {
+    return objective_.Evaluate(T, matches, options_.threads);
+  }
+
+  void Record(const SE3d& T, const Evaluation& evaluation) {
+    Iterate iterate;
+    iterate.T_target_source = T;
+    iterate.cost = evaluation.sums.cost;
+    iterate.rmse = evaluation.Rmse();
+    iterate.n = evaluation.n();
+    iterate.gradient_norm = evaluation.sums.gradient.norm();
+    if (!summary_.iterates.empty()) {
+      const SE3d step = summary_.iterates.back().T_target_source.Inverse() * T;
+      iterate.step_m = step.t().norm();
+      iterate.step_rad = step.LogRotation().norm();
+    }
+    iterate.time_s = std::chrono::duration<double>(Clock::now() - start_).count();
+    summary_.iterates.push_back(iterate);
+  }
+
+  // Whether the last recorded step ends the loop.
+  bool Converged() const {
+    return summary_.iterates.size() > 1 &&
+           summary_.iterates.back().step_m < options_.min_step_m &&
+           summary_.iterates.back().step_rad < options_.min_step_rad;
+  }
+
+  MinimizerSummary End(Termination termination, std::string message) {
+    summary_.termination = termination;
+    summary_.message = std::move(message);
+    return std::move(summary_);
+  }
+  MinimizerSummary EndNoCorrespondences() {
+    return End(Termination::kNoCorrespondences,
+               "No pair of points is left after " + std::to_string(summary_.iterates.size()) +
+                   " iterates.");
+  }
+  MinimizerSummary EndMaxIterations() {
+    return End(Termination::kMaxIterations, "The limit of " +
+                                                std::to_string(options_.max_iterations) +
+                                                " iterations was reached.");
+  }
+  MinimizerSummary EndConverged() {
+    return End(Termination::kConverged, "The last step was shorter than the limit.");
+  }
+  MinimizerSummary EndNoDescent() {
+    return End(Termination::kNoDescent, "No step lowered the cost any further.");
+  }
+
+  std::vector<Iterate>* iterates() { return &summary_.iterates; }
+
+ private:
+  using Clock = std::chrono::steady_clock;
+  const Objective& objective_;
+  const MinimizerOptions& options_;
+  MinimizerSummary summary_;
+  Clock::time_point start_ = Clock::now();
+};
+
+class FunctionCallback final : public ceres::IterationCallback {
+ public:
+  using Function = std::function<ceres::CallbackReturnType(const ceres::IterationSummary&)>;
+  explicit FunctionCallback(Function function) : function_(std::move(function)) {}
+  ceres::CallbackReturnType operator()(const ceres::IterationSummary& summary) override {
+    return function_(summary);
+  }
+
+ private:
+  Function function_;
+};
+
+// One Ceres step on frozen matches; false where no step lowers the frozen cost.
+bool Step(const Objective& objective, const Loop& loop, const Matches& matches,
+          const Evaluation& at_start, Parameters* x, std::string* failure) {
+  ceres::Problem problem(UnownedLoss());
+  problem.AddParameterBlock(x->data(), 7, new SE3Manifold);
+  if (at_start.sums.upward_loss) {
+    objective.AddResidualBlocks(matches, x->data(), &problem);
+  } else {
+    bool first = true;
+    problem.AddResidualBlock(new SquareRootCost([&, first](const SE3d& T) mutable {
+                               // Ceres begins with the pose that was evaluated a moment ago.
+                               return std::exchange(first, false)
+                                          ? at_start.sums
+                                          : loop.Frozen(T, matches).sums;
+                             }),
+                             nullptr, x->data());
+  }
+  ceres::Solver::Options options = SolverOptions();
+  options.max_num_iterations = 10;  // Shorter and shorter steps, until one is accepted.
+  options.num_threads = loop.options().threads;
+  FunctionCallback stop_after_first_step([](const ceres::IterationSummary& iteration) {
+    return iteration.iteration > 0 && iteration.step_is_successful
+               ? ceres::SOLVER_TERMINATE_SUCCESSFULLY
+               : ceres::SOLVER_CONTINUE;
+  });
+  options.callbacks.push_back(&stop_after_first_step);
+  ceres::Solver::Summary summary;
+  ceres::Solve(options, &problem, &summary);
+  if (summary.termination_type == ceres::FAILURE) {
+    *failure = summary.message;
+  }
+  // num_successful_steps counts the start.
+  return summary.num_successful_steps > 1;
+}
+
+MinimizerSummary MinimizeEveryStep(const Objective& objective, Parameters x, Loop loop) {
+  for (int iteration = 0;; ++iteration) {
+    const SE3d T = SE3d::FromParameters(x.data());
+    Matches matches;
+    const Evaluation evaluation = loop.Reassociated(T, &matches);
+    if (evaluation.n() == 0) {
+      return loop.EndNoCorrespondences();
+    }
+    if (iteration == 0 && evaluation.sums.upward_loss) {
+      LOG(WARNING) << "The loss curves upwards: one residual block per pair, which is slow.";
+    }
+    loop.Record(T, evaluation);
+    if (loop.Converged()) {
+      return loop.EndConverged();
+    }
+    if (iteration == loop.options().max_iterations) {
+      return loop.EndMaxIterations();
+    }
+    std::string failure;
+    if (!Step(objective, loop, matches, evaluation, &x, &failure)) {
+      return failure.empty() ? loop.EndNoDescent() : loop.End(Termination::kFailure, failure);
+    }
+  }
+}
+
+MinimizerSummary MinimizeEveryEvaluation(Parameters x, Loop loop) {
+  struct {
+    SE3d T;
+    Evaluation evaluation;
+  } last;
+  ceres::Problem problem;
+  problem.AddParameterBlock(x.data(), 7, new SE3Manifold);
+  problem.AddResidualBlock(new SquareRootCost([&](const SE3d& T) {
+                             Matches matches;
+                             last = {T, loop.Reassociated(T, &matches)};
+                             NormalEquations sums = last.evaluation.sums;
+                             if (sums.num_correspondences == 0) {
+                               // No pair is no perfect fit: refuse the pose.
+                               sums.cost = std::numeric_limits<double>::quiet_NaN();
+                             }
+                             return sums;
+                           }),
+                           nullptr, x.data());
+  ceres::Solver::Options options = SolverOptions();
+  options.max_num_iterations = loop.options().max_iterations;
+  options.use_nonmonotonic_steps = true;
+  FunctionCallback record([&](const ceres::IterationSummary& iteration) {
+    // The problem's own parameters are the best so far, not the current ones: under non-monotone
+    // steps these are the pose evaluated last.
+    if (iteration.iteration == 0 || iteration.step_is_successful) {
+      loop.Record(last.T, last.evaluation);
+      if (loop.Converged()) {
+        return ceres::SOLVER_TERMINATE_SUCCESSFULLY;
+      }
+    }
+    return ceres::SOLVER_CONTINUE;
+  });
+  options.callbacks.push_back(&record);
+  ceres::Solver::Summary summary;
+  ceres::Solve(options, &problem, &summary);
+
+  std::vector<Iterate>* iterates = loop.iterates();
+  if (iterates->empty()) {
+    return last.evaluation.n() == 0 ? loop.EndNoCorrespondences()
+                                    : loop.End(Termination::kFailure, summary.message);
+  }
+  const bool converged = loop.Converged();
+  // Ceres returns the pose of least cost: what came after it was an excursion.
+  const auto best = std::min_element(
+      iterates->begin(), iterates->end(),
+      [](const Iterate& a, const Iterate& b) { return a.cost < b.cost; });
+  iterates->erase(best + 1, iterates->end());
+  if (converged) {
+    return loop.EndConverged();
+  }
+  switch (summary.termination_type) {
+    case ceres::NO_CONVERGENCE:
+      return loop.EndMaxIterations();
+    case ceres::CONVERGENCE:
+      return loop.EndNoDescent();
+    default:
+      return loop.End(Termination::kFailure, summary.message);
+  }
+}
+
+}  // namespace
+
+const char* TerminationName(Termination termination) {
+  switch (termination) {
+    case Termination::kConverged:
+      return "converged";
+    case Termination::kNoDescent:
+      return "no_descent";
+    case Termination::kMaxIterations:
+      return "max_iterations";
+    case Termination::kNoCorrespondences:
+      return "no_correspondences";
+    case Termination::kFailure:
+      return "failure";
+  }
+  return "";
+}
+
+MinimizerSummary Minimize(const Objective& objective, const SE3d& T_start,
+                          const MinimizerOptions& options) {
+  const Parameters x = ToParameters(T_start);
+  Loop loop(objective, options);
+  return options.reassociation == Reassociation::kEveryStep
+             ? MinimizeEveryStep(objective, x, std::move(loop))
+             : MinimizeEveryEvaluation(x, std::move(loop));
+}
+
+}  // namespace icpscape

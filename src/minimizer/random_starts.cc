@@ -1,0 +1,72 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "src/minimizer/random_starts.h"
+
+#include <mutex>
+#include <random>
+
+#include "src/common/parallel.h"
+
+namespace icpscape {
+namespace {
+
+// std's distributions differ between libraries; the engine does not.
+double Uniform(std::mt19937_64* engine) {
+  return static_cast<double>((*engine)() >> 11U) * 0x1p-53;
+}
+
+Vec3 RandomVector(double longest, std::mt19937_64* engine) {
+  const double z = 2 * Uniform(engine) - 1;
+  const double angle = 2 * M_PI * Uniform(engine);
+  const double length = longest * Uniform(engine);
+  const double ring = std::sqrt(1 - z * z);
+  return length * Vec3(ring * std::cos(angle), ring * std::sin(angle), z);
+}
+
+}  // namespace
+
+std::vector<SE3d> RandomStarts(const SE3d& T_reference, const RandomStartOptions& options) {
+  std::mt19937_64 engine(options.seed);
+  std::vector<SE3d> starts;
+  for (int i = 0; i < options.count; ++i) {
+    Vec6 xi;
+    xi.head<3>() = RandomVector(options.rotation_rad, &engine);
+    xi.tail<3>() = RandomVector(options.translation_m, &engine);
+    starts.push_back(T_reference * SE3d::Exp(xi));
+  }
+  return starts;
+}
+
+std::vector<StartResult> RunRandomStarts(const Objective& objective, const SE3d& T_reference,
+                                         const RandomStartOptions& options,
+                                         const std::function<void(int)>& progress) {
+  const std::vector<SE3d> starts = RandomStarts(T_reference, options);
+  std::vector<StartResult> results(starts.size());
+  MinimizerOptions minimizer = options.minimizer;
+  minimizer.threads = 1;  // Parallel over starts.
+  std::mutex mutex;
+  int done = 0;
+  ParallelFor(starts.size(), options.minimizer.threads, [&](std::size_t i) {
+    const MinimizerSummary summary = Minimize(objective, starts[i], minimizer);
+    StartResult& result = results[i];
+    const SE3d start = T_reference.Inverse() * starts[i];
+    result.start_m = start.t().norm();
+    result.start_rad = start.LogRotation().norm();
+    result.termination = summary.termination;
+    result.end_m = result.end_rad = std::numeric_limits<double>::quiet_NaN();
+    if (!summary.iterates.empty()) {
+      const SE3d end = T_reference.Inverse() * summary.T_target_source();
+      result.end_m = end.t().norm();
+      result.end_rad = end.LogRotation().norm();
+      result.iterations = static_cast<int>(summary.iterates.size()) - 1;
+    }
+    result.success =
+        summary.Usable() && result.end_m < kSuccessM && result.end_rad < kSuccessRad;
+    if (progress) {
+      const std::lock_guard<std::mutex> lock(mutex);
+      progress(++done);
+    }
+  });
+  return results;
+}
+
+}  // namespace icpscape

@@ -1,0 +1,45 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#ifndef ICPSCAPE_SRC_MINIMIZER_RANDOM_STARTS_H_
+#define ICPSCAPE_SRC_MINIMIZER_RANDOM_STARTS_H_
+
+#include <cmath>
+#include <functional>
+#include <vector>
+
+#include "src/minimizer/minimizer.h"
+
+namespace icpscape {
+
+/// A registration succeeds when it ends this close to the reference.
+inline constexpr double kSuccessM = 0.05;
+inline constexpr double kSuccessRad = 0.25 * M_PI / 180;
+
+struct RandomStartOptions {
+  int count = 100;
+  double translation_m = 0.5;  ///< Longest translation of a start.
+  double rotation_rad = 0.05;  ///< Largest rotation of a start.
+  unsigned seed = 1;
+  MinimizerOptions minimizer;
+};
+
+struct StartResult {
+  double start_m = 0, start_rad = 0;  ///< Distance of the start from the reference.
+  double end_m = 0, end_rad = 0;      ///< Distance of the result from the reference.
+  int iterations = 0;
+  Termination termination = Termination::kFailure;
+  bool success = false;
+};
+
+/// The start poses: T_reference Exp([omega; v]) with directions uniform on the sphere and lengths
+/// uniform up to the limits; the same for the same seed on every machine.
+std::vector<SE3d> RandomStarts(const SE3d& T_reference, const RandomStartOptions& options);
+
+/// Minimises from every start, in parallel over starts; results in the order of RandomStarts.
+/// `progress` (if any) is called with the number done, one call at a time.
+std::vector<StartResult> RunRandomStarts(const Objective& objective, const SE3d& T_reference,
+                                         const RandomStartOptions& options,
+                                         const std::function<void(int)>& progress = nullptr);
+
+}  // namespace icpscape
+
+#endif  // ICPSCAPE_SRC_MINIMIZER_RANDOM_STARTS_H_

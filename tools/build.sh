@@ -1,0 +1,13 @@
+#!/usr/bin/env bash
+# SPDX-License-Identifier: BSD-3-Clause
+# Installs what is missing and builds the preset (default: release).
+set -euo pipefail
+cd "$(dirname "$0")/.."
+preset=${1:-release}
+tools/setup.sh
+echo "build: preset $preset"
+cmake --preset "$preset" -Wno-dev >"build/configure.log" 2>&1 || {
+  mkdir -p build
+  cmake --preset "$preset" -Wno-dev
+}
+cmake --build --preset "$preset"
