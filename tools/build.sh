@@ -6,8 +6,9 @@ cd "$(dirname "$0")/.."
 preset=${1:-release}
 tools/setup.sh
 echo "build: preset $preset"
-cmake --preset "$preset" -Wno-dev >"build/configure.log" 2>&1 || {
-  mkdir -p build
+mkdir -p build
+cmake --preset "$preset" -Wno-dev >build/configure.log 2>&1 || {
+
   cmake --preset "$preset" -Wno-dev
 }
 cmake --build --preset "$preset"

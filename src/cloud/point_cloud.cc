@@ -6,8 +6,8 @@
 namespace icpscape {
 namespace {
 
-void SelectArray(const std::vector<float>& in, const std::vector<char>& keep,
-                 std::vector<float>* out) {
+template <class T>
+void SelectArray(const std::vector<T>& in, const std::vector<char>& keep, std::vector<T>* out) {
   for (std::size_t i = 0; i < in.size(); ++i) {
     if (keep[i] != 0) {
       out->push_back(in[i]);
@@ -23,6 +23,8 @@ PointCloud PointCloud::Select(const std::vector<char>& keep) const {
                            &PointCloud::nx, &PointCloud::ny, &PointCloud::nz}) {
     SelectArray(this->*array, keep, &(out.*array));
   }
+  SelectArray(ring, keep, &out.ring);
+  SelectArray(label, keep, &out.label);
   return out;
 }
 

@@ -4,6 +4,7 @@
 
 #include <Eigen/Core>
 #include <cstddef>
+#include <cstdint>
 #include <vector>
 
 #include "residuals/lie.h"
@@ -19,6 +20,8 @@ struct PointCloud {
   std::vector<float> x, y, z;
   std::vector<float> intensity;   ///< Optional, sensor units.
   std::vector<float> nx, ny, nz;  ///< Optional unit normals; (0, 0, 0) where there is none.
+  std::vector<std::int32_t> ring;   ///< Optional, scan line of the sensor, 0 the uppermost.
+  std::vector<std::int32_t> label;  ///< Optional, what was hit (simulated scans know it).
 
   std::size_t size() const { return x.size(); }
   bool empty() const { return x.empty(); }
