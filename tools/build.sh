@@ -8,7 +8,6 @@ tools/setup.sh
 echo "build: preset $preset"
 mkdir -p build
 cmake --preset "$preset" -Wno-dev >build/configure.log 2>&1 || {
-
   cmake --preset "$preset" -Wno-dev
 }
 cmake --build --preset "$preset"
