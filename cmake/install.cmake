@@ -14,5 +14,5 @@ install(FILES ${CMAKE_BINARY_DIR}/icpscape-config.cmake
         DESTINATION ${CMAKE_INSTALL_LIBDIR}/cmake/icpscape)
 install(DIRECTORY residuals src DESTINATION include/icpscape FILES_MATCHING PATTERN "*.h")
 install(DIRECTORY tests/support DESTINATION include/icpscape/tests FILES_MATCHING
-        PATTERN "residual_test_suite.h")
+        PATTERN "residual_*.h")
 install(DIRECTORY tools DESTINATION share/icpscape FILES_MATCHING PATTERN "plot_*.py")

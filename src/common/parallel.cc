@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "src/common/parallel.h"
 
+#include <oneapi/tbb/global_control.h>
 #include <oneapi/tbb/parallel_for.h>
 #include <oneapi/tbb/task_arena.h>
 
@@ -18,6 +19,8 @@ void ParallelFor(std::size_t count, int threads, const std::function<void(std::s
     }
     return;
   }
+  // Without this TBB warns about, and ignores, more threads than the machine has.
+  static const tbb::global_control allowed(tbb::global_control::max_allowed_parallelism, 1024);
   // An arena per call: `threads` is a property of the call, and the workers sleep in between.
   tbb::task_arena arena(threads);
   arena.execute([&] {

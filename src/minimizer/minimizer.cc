@@ -9,9 +9,12 @@
 #include <algorithm>
 #include <array>
 #include <chrono>
-#include <memory>
+#include <functional>
+#include <limits>
+#include <utility>
 
 #include "residuals/adapters/ceres.h"
+#include "src/common/parallel.h"
 
 namespace icpscape {
 namespace {
@@ -133,9 +136,11 @@ class FunctionCallback final : public ceres::IterationCallback {
 bool Step(const Objective& objective, const Loop& loop, const Matches& matches,
           const Evaluation& at_start, Parameters* x, std::string* failure) {
   ceres::Problem problem(UnownedLoss());
+  ceres::Solver::Options options = SolverOptions();
   problem.AddParameterBlock(x->data(), 7, new SE3Manifold);
   if (at_start.sums.upward_loss) {
     objective.AddResidualBlocks(matches, x->data(), &problem);
+    options.num_threads = std::min(loop.options().threads, HardwareThreads());
   } else {
     bool first = true;
     problem.AddResidualBlock(new SquareRootCost([&, first](const SE3d& T) mutable {
@@ -146,9 +151,7 @@ bool Step(const Objective& objective, const Loop& loop, const Matches& matches,
                              }),
                              nullptr, x->data());
   }
-  ceres::Solver::Options options = SolverOptions();
   options.max_num_iterations = 10;  // Shorter and shorter steps, until one is accepted.
-  options.num_threads = loop.options().threads;
   FunctionCallback stop_after_first_step([](const ceres::IterationSummary& iteration) {
     return iteration.iteration > 0 && iteration.step_is_successful
                ? ceres::SOLVER_TERMINATE_SUCCESSFULLY
@@ -194,11 +197,21 @@ MinimizerSummary MinimizeEveryEvaluation(Parameters x, Loop loop) {
     SE3d T;
     Evaluation evaluation;
   } last;
+  const auto evaluate = [&](const SE3d& T) {
+    Matches matches;
+    last = {T, loop.Reassociated(T, &matches)};
+  };
+  evaluate(SE3d::FromParameters(x.data()));
+  if (last.evaluation.n() == 0) {
+    return loop.EndNoCorrespondences();
+  }
+  bool first = true;
   ceres::Problem problem;
   problem.AddParameterBlock(x.data(), 7, new SE3Manifold);
   problem.AddResidualBlock(new SquareRootCost([&](const SE3d& T) {
-                             Matches matches;
-                             last = {T, loop.Reassociated(T, &matches)};
+                             if (!std::exchange(first, false)) {
+                               evaluate(T);
+                             }
                              NormalEquations sums = last.evaluation.sums;
                              if (sums.num_correspondences == 0) {
                                // No pair is no perfect fit: refuse the pose.
@@ -227,8 +240,7 @@ MinimizerSummary MinimizeEveryEvaluation(Parameters x, Loop loop) {
 
   std::vector<Iterate>* iterates = loop.iterates();
   if (iterates->empty()) {
-    return last.evaluation.n() == 0 ? loop.EndNoCorrespondences()
-                                    : loop.End(Termination::kFailure, summary.message);
+    return loop.End(Termination::kFailure, summary.message);
   }
   const bool converged = loop.Converged();
   // Ceres returns the pose of least cost: what came after it was an excursion.

@@ -1,0 +1,157 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <nlohmann/json.hpp>
+#include <random>
+
+#include "src/common/error.h"
+#include "src/common/text.h"
+#include "src/io/manifest.h"
+#include "src/io/output.h"
+#include "src/io/point_files.h"
+#include "src/io/transform.h"
+#include "tests/support/scenes.h"
+#include "tests/support/temporary_folder.h"
+
+namespace icpscape {
+namespace {
+
+using testing::HasSubstr;
+using testing_support::ReadFile;
+using testing_support::TemporaryFolder;
+
+template <class F>
+std::string InputMessage(const F& f) {
+  try {
+    f();
+  } catch (const InputError& error) {
+    return error.what();
+  }
+  return "nothing was thrown";
+}
+
+TEST(Text, NumbersReadBackExactly) {
+  std::mt19937_64 engine(1);
+  for (int i = 0; i < 1000; ++i) {
+    const double value = std::ldexp(static_cast<double>(engine()), static_cast<int>(engine() % 100) - 80);
+    EXPECT_EQ(std::stod(Number(value)), value);
+  }
+  EXPECT_EQ(Number(0.1), "0.1");
+  EXPECT_EQ(Number(1), "1");
+}
+
+TEST(Transform, TextGoesRoundExactly) {
+  const TemporaryFolder folder;
+  const SE3d T = SE3d::Exp((Vec6() << 0.1, -0.2, 0.3, 1, 2, 3).finished());
+  WriteTextFile(folder.path() / "T.txt", FormatTransform(T));
+  const SE3d back = ReadTransform(folder.path() / "T.txt");
+  EXPECT_EQ(back.t(), T.t());
+  EXPECT_LE((back.R() - T.R()).norm(), 1e-15);
+}
+
+TEST(Transform, RefusesWhatIsNotRigid) {
+  const auto message = [](const std::string& text) {
+    return InputMessage([&] { ParseTransform(text, "place"); });
+  };
+  EXPECT_THAT(message("1 2 3"), HasSubstr("place: 3 numbers; expected a 3x4 or 4x4"));
+  EXPECT_THAT(message("1 0 0 0 0 1 0 0 0 0 1.1 0"), HasSubstr("not rigid"));
+  EXPECT_THAT(message("-1 0 0 0 0 1 0 0 0 0 1 0"), HasSubstr("not rigid"));  // A reflection.
+  EXPECT_THAT(message("1 0 0 nan 0 1 0 0 0 0 1 0"), HasSubstr("not rigid"));
+  EXPECT_THAT(message("nan 0 0 0 0 1 0 0 0 0 1 0"), HasSubstr("not rigid"));
+  EXPECT_THAT(message("1 0 0 0 0 1 0 0 0 0 1 0 0 0 1 1"), HasSubstr("last row"));
+  EXPECT_THAT(message("1 0 0 0 0 1 0 0 0 0 1e 0"), HasSubstr("\"1e\"; expected a number"));
+  EXPECT_THAT(InputMessage([] { ReadTransform("/nowhere/T.txt"); }), HasSubstr("cannot be read"));
+}
+
+TEST(PointFiles, PlyGoesRound) {
+  const TemporaryFolder folder;
+  PointCloud cloud = testing_support::Room(100, 1);
+  cloud.intensity.assign(100, 0.5);
+  WritePly(folder.path() / "room.ply", cloud);
+  DroppedPoints dropped;
+  const PointCloud back = ReadPointFile(folder.path() / "room.ply", &dropped);
+  EXPECT_EQ(back.x, cloud.x);
+  EXPECT_EQ(back.y, cloud.y);
+  EXPECT_EQ(back.z, cloud.z);
+  EXPECT_EQ(back.intensity, cloud.intensity);
+}
+
+TEST(PointFiles, ReadsAsciiPcd) {
+  const TemporaryFolder folder;
+  const auto path = folder.Write("a.pcd",
+                                 "VERSION .7\nFIELDS x y z\nSIZE 4 4 4\nTYPE F F F\nCOUNT 1 1 1\n"
+                                 "WIDTH 3\nHEIGHT 1\nVIEWPOINT 0 0 0 1 0 0 0\nPOINTS 3\n"
+                                 "DATA ascii\n1 2 3\nnan nan nan\n4 5 6\n");
+  DroppedPoints dropped;
+  const PointCloud cloud = ReadPointFile(path, &dropped);
+  EXPECT_EQ(cloud.x, (std::vector<float>{1, 4}));
+  EXPECT_EQ(dropped.non_finite, 1U);
+}
+
+TEST(PointFiles, RefusesBrokenFiles) {
+  const TemporaryFolder folder;
+  DroppedPoints dropped;
+  const auto message = [&](const std::filesystem::path& path) {
+    return InputMessage([&] { ReadPointFile(path, &dropped); });
+  };
+  EXPECT_THAT(message(folder.path() / "none.ply"), HasSubstr("none.ply: cannot be read"));
+  EXPECT_THAT(message(folder.Write("a.xyz", "1 2 3")), HasSubstr("expected .bin, .pcd or .ply"));
+  EXPECT_THAT(message(folder.Write("junk.ply", "junk")), HasSubstr("whole PLY file"));
+  EXPECT_THAT(message(folder.Write("junk.pcd", "junk")), HasSubstr("PCD file"));
+  WritePly(folder.path() / "whole.ply", testing_support::Room(100, 1));
+  const std::string whole = ReadFile(folder.path() / "whole.ply");
+  const auto torn = folder.Write("torn.ply", whole.substr(0, whole.size() / 2));
+  EXPECT_THAT(message(torn), HasSubstr("torn.ply"));
+  EXPECT_THAT(message(folder.Write("flat.ply", "ply\nformat ascii 1.0\nelement vertex 1\n"
+                                               "property float x\nproperty float y\nend_header\n"
+                                               "1 2\n")),
+              HasSubstr("no field z"));
+}
+
+TEST(Output, FilesAppearWholeOrNotAtAll) {
+  const TemporaryFolder folder;
+  const auto path = folder.Write("table.csv", "old");
+  EXPECT_THAT(InputMessage([&] {
+                WriteThenRename(path, [&](const std::filesystem::path& part) {
+                  testing_support::ReadFile(part);
+                  return false;
+                });
+              }),
+              HasSubstr("cannot be written"));
+  EXPECT_EQ(ReadFile(path), "old");
+  WriteTextFile(path, "new");
+  EXPECT_EQ(ReadFile(path), "new");
+  int files = 0;
+  for (const auto& entry : std::filesystem::directory_iterator(folder.path())) {
+    (void)entry;
+    ++files;
+  }
+  EXPECT_EQ(files, 1);
+}
+
+TEST(Output, FolderMustBeWritable) {
+  const TemporaryFolder folder;
+  const auto file = folder.Write("file", "");
+  EXPECT_THAT(InputMessage([&] { PrepareOutputFolder(file / "below"); }),
+              HasSubstr("cannot be written"));
+  PrepareOutputFolder(folder.path() / "a/b");
+  EXPECT_TRUE(std::filesystem::is_directory(folder.path() / "a/b"));
+}
+
+TEST(Manifest, HashesInputs) {
+  const TemporaryFolder folder;
+  Manifest manifest("test");
+  manifest.AddInput(folder.Write("abc", "abc"));
+  manifest.SetFlag("samples", "100");
+  manifest.Write(folder.path() / "manifest.json");
+  const auto json = nlohmann::json::parse(ReadFile(folder.path() / "manifest.json"));
+  // The first test vector of FIPS 180-2.
+  EXPECT_EQ(json["inputs"][(folder.path() / "abc").string()]["sha256"],
+            "ba7816bf8f01cfea414140de5dae2223b00361a396177a9cb410ff61f20015ad");
+  EXPECT_EQ(json["flags"]["samples"], "100");
+  EXPECT_THAT(json["version"].get<std::string>(), testing::StartsWith("0."));
+}
+
+}  // namespace
+}  // namespace icpscape

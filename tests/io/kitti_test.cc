@@ -1,0 +1,120 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "src/io/kitti.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <fstream>
+
+#include "src/common/error.h"
+#include "tests/support/real_data.h"
+#include "tests/support/temporary_folder.h"
+
+namespace icpscape {
+namespace {
+
+using testing::HasSubstr;
+using testing_support::TemporaryFolder;
+
+template <class Error, class F>
+std::string MessageOf(const F& f) {
+  try {
+    f();
+  } catch (const Error& error) {
+    return error.what();
+  }
+  return "nothing was thrown";
+}
+
+std::string Floats(const std::vector<float>& values) {
+  return {reinterpret_cast<const char*>(values.data()), values.size() * sizeof(float)};
+}
+
+TEST(Velodyne, ReadsAndCountsWhatItDrops) {
+  const TemporaryFolder folder;
+  const auto path = folder.Write("scan.bin", Floats({1, 2, 3, 0.5, 0, 0, 0, 0, NAN, 1, 1, 0.1F,  //
+                                                     4, 5, 6, 0.25}));
+  DroppedPoints dropped;
+  const PointCloud cloud = ReadVelodyne(path, &dropped);
+  EXPECT_EQ(dropped.zero, 1U);
+  EXPECT_EQ(dropped.non_finite, 1U);
+  EXPECT_EQ(cloud.x, (std::vector<float>{1, 4}));
+  EXPECT_EQ(cloud.z, (std::vector<float>{3, 6}));
+  EXPECT_EQ(cloud.intensity, (std::vector<float>{0.5, 0.25}));
+}
+
+TEST(Velodyne, RefusesBrokenFilesInOneSentence) {
+  const TemporaryFolder folder;
+  DroppedPoints dropped;
+  const auto message = [&](const std::filesystem::path& path) {
+    return MessageOf<InputError>([&] { ReadVelodyne(path, &dropped); });
+  };
+  EXPECT_THAT(message(folder.path() / "none.bin"), HasSubstr("none.bin: cannot be read"));
+  EXPECT_THAT(message(folder.path()), HasSubstr("cannot be read"));
+  EXPECT_THAT(message(folder.Write("torn.bin", Floats({1, 2, 3, 4, 5}))),
+              HasSubstr("20 bytes; expected a multiple of 16"));
+  EXPECT_THAT(message(folder.Write("empty.bin", "")), HasSubstr("no usable point among 0"));
+  EXPECT_THAT(message(folder.Write("nan.bin", Floats({NAN, 0, 0, 0}))),
+              HasSubstr("no usable point among 1"));
+}
+
+TEST(Velodyne, ElevationCorrectionTurnsAboutTheHorizontalAxis) {
+  PointCloud cloud;
+  cloud.x = {10, 0};
+  cloud.y = {0, 5};
+  cloud.z = {0, 5};
+  CorrectElevation(1, &cloud);
+  // The first point rises by 1 degree on a circle of 10 m; the second from 45 to 46 degrees.
+  EXPECT_NEAR(cloud.x[0], 10 * std::cos(M_PI / 180), 1e-6);
+  EXPECT_NEAR(cloud.z[0], 10 * std::sin(M_PI / 180), 1e-6);
+  EXPECT_NEAR(cloud.y[1], std::sqrt(50) * std::cos(46 * M_PI / 180), 1e-6);
+  EXPECT_NEAR(cloud.z[1], std::sqrt(50) * std::sin(46 * M_PI / 180), 1e-6);
+}
+
+TEST(KittiPoses, RelativeMotionThroughTheCalibration) {
+  const TemporaryFolder folder;
+  // The camera looks along the lidar's x: p_camera = (-y, -z, x).
+  folder.Write("sequences/09/calib.txt",
+               "P0: 1 0 0 0 0 1 0 0 0 0 1 0\nTr: 0 -1 0 0 0 0 -1 0 1 0 0 0\n");
+  // The camera moves 2 m along its z (forwards) from row 0 to row 1.
+  folder.Write("poses/09.txt", "1 0 0 0 0 1 0 0 0 0 1 0\n1 0 0 0 0 1 0 0 0 0 1 2\n");
+  const SE3d T = KittiSequence(folder.path(), "09").RelativeMotion(0, 1);
+  EXPECT_LE((T.t() - Vec3(2, 0, 0)).norm(), 1e-12);
+  EXPECT_LE((T.R() - Mat3::Identity()).norm(), 1e-12);
+}
+
+TEST(KittiPoses, RefusesBrokenFilesInOneSentence) {
+  const TemporaryFolder folder;
+  EXPECT_THAT(MessageOf<InputError>([&] { KittiSequence(folder.path(), "77"); }),
+              HasSubstr("expected a KITTI odometry sequence"));
+  EXPECT_THAT(MessageOf<InputError>([&] { ReadKittiCalibration(folder.path() / "calib.txt"); }),
+              HasSubstr("expected a KITTI calib.txt"));
+  const auto no_tr = folder.Write("calib.txt", "P0: 1 0 0 0 0 1 0 0 0 0 1 0\n");
+  EXPECT_THAT(MessageOf<InputError>([&] { ReadKittiCalibration(no_tr); }),
+              HasSubstr("no line begins with \"Tr:\""));
+  const auto torn = folder.Write("poses.txt", "1 0 0 0 0 1 0 0 0 0 1 0\n1 0 0 0 0 1 0 0\n");
+  EXPECT_THAT(MessageOf<InputError>([&] { ReadKittiPoses(torn); }),
+              HasSubstr("poses.txt:2: 8 numbers"));
+  const auto words = folder.Write("poses.txt", "1 0 0 0 0 1 0 x 0 0 1 0\n");
+  EXPECT_THAT(MessageOf<InputError>([&] { ReadKittiPoses(words); }),
+              HasSubstr("poses.txt:1: \"x\"; expected a number"));
+  const auto scaled = folder.Write("poses.txt", "2 0 0 0 0 2 0 0 0 0 2 0\n");
+  EXPECT_THAT(MessageOf<InputError>([&] { ReadKittiPoses(scaled); }), HasSubstr("not rigid"));
+  folder.Write("sequences/03/calib.txt", "Tr: 1 0 0 0 0 1 0 0 0 0 1 0\n");
+  folder.Write("poses/03.txt", "1 0 0 0 0 1 0 0 0 0 1 0\n");
+  EXPECT_THAT(
+      MessageOf<InputError>([&] { KittiSequence(folder.path(), "03").RelativeMotion(0, 1); }),
+      HasSubstr("1 rows; expected a row for frame 1"));
+}
+
+// 00/95: a right turn of 1.24 degrees over 0.475 m (the data's own description).
+TEST(KittiPoses, RealTurn) {
+  ICPSCAPE_REQUIRE_KITTI(root);
+  const SE3d T = KittiSequence(root, "00").RelativeMotion(94, 95);
+  EXPECT_NEAR(T.t().norm(), 0.475, 1e-3);
+  EXPECT_NEAR(T.LogRotation().z() * 180 / M_PI, -1.24, 5e-3);
+  EXPECT_GT(T.t().x(), 0.47);
+}
+
+}  // namespace
+}  // namespace icpscape

@@ -1,0 +1,173 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "src/landscape/curve.h"
+
+#include <gtest/gtest.h>
+
+#include "residuals/registry.h"
+#include "src/cloud/normals.h"
+#include "src/common/error.h"
+#include "src/io/kitti.h"
+#include "tests/support/real_data.h"
+#include "tests/support/scenes.h"
+
+namespace icpscape {
+namespace {
+
+const SE3d kMotion = SE3d::Exp((Vec6() << 0.01, -0.005, 0.05, 0.6, 0.05, -0.02).finished());
+
+struct MovedRoom {
+  PointCloud target = testing_support::Room(3000, 1, SE3d(), 0.005);
+  PointCloud source = testing_support::Room(3000, 2, kMotion.Inverse(), 0.005);
+  MovedRoom() {
+    EstimateNormals({}, 2, &target);
+    EstimateNormals({}, 2, &source);
+  }
+};
+
+const MovedRoom& Room() {
+  static const MovedRoom room;
+  return room;
+}
+
+std::vector<Objective> AllObjectives(const ClosestPointMatcher& matcher) {
+  std::vector<Objective> objectives;
+  ForEachMetric([&](auto tag) {
+    objectives.emplace_back(decltype(tag)::Metric::kName, Room().source, Room().target, matcher);
+  });
+  return objectives;
+}
+
+TEST(Curve, DefaultGridHitsStartAndReferenceExactly) {
+  const CurveOptions options;
+  EXPECT_EQ(options.U(0), -1);
+  EXPECT_EQ(options.U(33), 0);
+  EXPECT_EQ(options.U(66), 1);
+  EXPECT_EQ(options.U(99), 2);
+}
+
+TEST(Curve, MinimumLiesAtTheTruth) {
+  const ClosestPointMatcher matcher(Room().target);
+  const std::vector<Objective> objectives = AllObjectives(matcher);
+  CurveOptions options;
+  options.threads = 2;
+  for (const Curve& curve :
+       EvaluateCurves(objectives, Path(SE3d(), kMotion, PathKind::kLerpSlerp), options)) {
+    EXPECT_NEAR(curve.Minimum().u, 1, 0.07) << curve.metric;
+  }
+}
+
+// With frozen pairs the curve is smooth and its slope is the gradient along the path.
+TEST(Curve, FrozenSlopesAgree) {
+  const ClosestPointMatcher matcher(Room().target);
+  const std::vector<Objective> objectives = AllObjectives(matcher);
+  const Matches frozen = objectives[0].Match(kMotion, 1);
+  for (const PathKind kind : {PathKind::kLerpSlerp, PathKind::kGeodesic}) {
+    const Path path(SE3d(), kMotion, kind);
+    for (const double u : {-0.7, 0.0, 0.4, 1.6}) {
+      constexpr double h = 1e-4;
+      CurveOptions options;
+      options.u_min = u - h;
+      options.u_max = u + h;
+      options.samples = 3;
+      options.frozen = &frozen;
+      for (const Curve& curve : EvaluateCurves(objectives, path, options)) {
+        const CurvePoint& p = curve.points[1];
+        EXPECT_NEAR(p.slope_analytic, p.slope_numeric, 1e-6 * (1 + std::abs(p.slope_numeric)))
+            << curve.metric << " at u = " << u;
+      }
+    }
+  }
+}
+
+TEST(Curve, NumericSlopesAreExactForAParabola) {
+  // One pair, point-to-point, moved along x: rmse = |u - 1|, whose slope is exactly -1 left of it.
+  PointCloud source, target;
+  testing_support::AddPoint({5, 0, 0}, &source);
+  testing_support::AddPoint({6, 0, 0}, &target);
+  const ClosestPointMatcher matcher(target);
+  const std::vector<Objective> objectives = {
+      Objective("point_to_point", source, target, matcher)};
+  CurveOptions options;
+  options.u_max = 0.5;
+  options.samples = 4;
+  const Path path(SE3d(), SE3d(Mat3::Identity(), Vec3(1, 0, 0)), PathKind::kLerpSlerp);
+  const auto curves = EvaluateCurves(objectives, path, options);
+  for (const CurvePoint& p : curves[0].points) {
+    EXPECT_NEAR(p.rmse, 1 - p.u, 1e-12);
+    EXPECT_NEAR(p.slope_numeric, -1, 1e-12);
+    EXPECT_NEAR(p.slope_analytic, -1, 1e-12);
+    EXPECT_EQ(p.n, 1);
+    EXPECT_EQ(p.inlier_ratio, 1);
+  }
+}
+
+TEST(Curve, IsBitIdenticalForAnyNumberOfThreads) {
+  const ClosestPointMatcher matcher(Room().target);
+  const std::vector<Objective> objectives = AllObjectives(matcher);
+  const Path path(SE3d(), kMotion, PathKind::kLerpSlerp);
+  CurveOptions options;
+  options.samples = 20;
+  const auto one = EvaluateCurves(objectives, path, options);
+  options.threads = 3;
+  const auto three = EvaluateCurves(objectives, path, options);
+  for (std::size_t m = 0; m < one.size(); ++m) {
+    for (std::size_t i = 0; i < one[m].points.size(); ++i) {
+      EXPECT_EQ(one[m].points[i].rmse, three[m].points[i].rmse);
+      EXPECT_EQ(one[m].points[i].slope_analytic, three[m].points[i].slope_analytic);
+    }
+  }
+}
+
+TEST(Curve, RefusesAbsurdGridsAndEmptyMatchings) {
+  const ClosestPointMatcher matcher(Room().target, {1e-6});
+  const std::vector<Objective> objectives = {
+      Objective("point_to_point", Room().source, Room().target, matcher)};
+  const Path path(SE3d(), kMotion, PathKind::kLerpSlerp);
+  EXPECT_THROW(EvaluateCurves(objectives, path, {}), ComputationError);
+  CurveOptions options;
+  options.threads = 2;
+  EXPECT_THROW(EvaluateCurves(objectives, path, options), ComputationError);
+  options.samples = 1;
+  EXPECT_THROW(EvaluateCurves(objectives, path, options), UsageError);
+  options.samples = 10;
+  options.u_min = options.u_max;
+  EXPECT_THROW(EvaluateCurves(objectives, path, options), UsageError);
+  options.u_min = NAN;
+  EXPECT_THROW(EvaluateCurves(objectives, path, options), UsageError);
+}
+
+// On real scans the plane metrics' minimum lies at the ground truth.
+TEST(Curve, RealScansHaveTheirMinimumAtTheGroundTruth) {
+  ICPSCAPE_REQUIRE_KITTI(root);
+  struct {
+    const char* sequence;
+    int frame;
+    double within_m;
+  } const cases[] = {{"00", 15, 0.03}, {"00", 95, 0.03}, {"07", 2, 0.01}};
+  for (const auto& c : cases) {
+    const KittiSequence sequence(root, c.sequence);
+    DroppedPoints dropped;
+    PointCloud source = ReadVelodyne(sequence.ScanPath(c.frame), &dropped);
+    PointCloud target = ReadVelodyne(sequence.ScanPath(c.frame - 1), &dropped);
+    EstimateNormals({}, 2, &source);
+    EstimateNormals({}, 2, &target);
+    const SE3d truth = sequence.RelativeMotion(c.frame - 1, c.frame);
+    const ClosestPointMatcher matcher(target);
+    const std::vector<Objective> objectives = {
+        Objective("point_to_plane", source, target, matcher),
+        Objective("symmetric", source, target, matcher)};
+    CurveOptions options;
+    options.u_min = 17. / 33;  // The default grid's own samples about the minimum.
+    options.u_max = 49. / 33;
+    options.samples = 33;
+    options.threads = 2;
+    for (const Curve& curve :
+         EvaluateCurves(objectives, Path(SE3d(), truth, PathKind::kLerpSlerp), options)) {
+      EXPECT_LT(std::abs(curve.Minimum().u - 1) * truth.t().norm(), c.within_m)
+          << curve.metric << " on " << c.sequence << "/" << c.frame;
+    }
+  }
+}
+
+}  // namespace
+}  // namespace icpscape

@@ -1,0 +1,93 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "src/landscape/path.h"
+
+#include <gtest/gtest.h>
+
+#include "src/common/error.h"
+#include "tests/support/residual_sampler.h"
+
+namespace icpscape {
+namespace {
+
+const PathKind kKinds[] = {PathKind::kLerpSlerp, PathKind::kGeodesic};
+
+TEST(Path, PassesThroughItsEnds) {
+  ResidualSampler sampler(1);
+  for (const PathKind kind : kKinds) {
+    for (int i = 0; i < 100; ++i) {
+      const SE3d T_0 = sampler.Pose(3, 1), T_1 = sampler.Pose(3, 1.5);
+      const Path path(T_0, T_1, kind);
+      EXPECT_LE((path.Pose(0).Matrix() - T_0.Matrix()).norm(), 1e-13);
+      EXPECT_LE((path.Pose(1).Matrix() - T_1.Matrix()).norm(), 1e-13);
+    }
+  }
+}
+
+// The slerp of Eigen agrees inside [0, 1]; outside ours goes on at the same speed.
+TEST(Path, LerpSlerpIsTheFormula) {
+  ResidualSampler sampler(2);
+  const SE3d T_0 = sampler.Pose(3, 1), T_1 = sampler.Pose(3, 1.5);
+  const Path path(T_0, T_1, PathKind::kLerpSlerp);
+  const Eigen::Quaterniond q_0(T_0.R()), q_1(T_1.R());
+  for (const double u : {0.1, 0.3, 0.9}) {
+    EXPECT_LE((path.Pose(u).R() - q_0.slerp(u, q_1).toRotationMatrix()).norm(), 1e-13);
+    EXPECT_LE((path.Pose(u).t() - ((1 - u) * T_0.t() + u * T_1.t())).norm(), 1e-14);
+  }
+  const Mat3 step = T_0.R().transpose() * T_1.R();
+  EXPECT_LE((path.Pose(2).R() - T_0.R() * step * step).norm(), 1e-13);
+  EXPECT_LE((path.Pose(-1).R() - T_0.R() * step.transpose()).norm(), 1e-13);
+}
+
+TEST(Path, GeodesicRepeatsTheMotion) {
+  ResidualSampler sampler(3);
+  const SE3d T = sampler.Pose(3, 1);
+  const Path path(SE3d(), T, PathKind::kGeodesic);
+  EXPECT_LE((path.Pose(2).Matrix() - (T * T).Matrix()).norm(), 1e-13);
+  EXPECT_LE((path.Pose(-1).Matrix() - T.Inverse().Matrix()).norm(), 1e-13);
+}
+
+// By hand: 1 m forwards along a chord with 5 degrees of yaw. The two paths part by chord times yaw
+// outside: 8.7 cm at u = -1 and 2.
+TEST(Path, TheTwoPathsPartByChordTimesYaw) {
+  const double yaw = 5 * M_PI / 180;
+  const SE3d T_1(Eigen::AngleAxisd(yaw, Vec3::UnitZ()).toRotationMatrix(), Vec3(1, 0, 0));
+  const Path chord(SE3d(), T_1, PathKind::kLerpSlerp);
+  const Path arc(SE3d(), T_1, PathKind::kGeodesic);
+  EXPECT_NEAR((chord.Pose(2).t() - arc.Pose(2).t()).norm(), 0.087, 5e-4);
+  EXPECT_NEAR((chord.Pose(-1).t() - arc.Pose(-1).t()).norm(), 0.087, 5e-4);
+  EXPECT_NEAR((chord.Pose(0.5).t() - arc.Pose(0.5).t()).norm(), 0.011, 5e-4);
+}
+
+TEST(Path, BodyTwistIsTheDerivative) {
+  ResidualSampler sampler(4);
+  constexpr double h = 1e-5;
+  for (const PathKind kind : kKinds) {
+    for (int i = 0; i < 100; ++i) {
+      const Path path(sampler.Pose(3, 1), sampler.Pose(3, 1), kind);
+      const double u = sampler.Uniform(-1, 2);
+      const Vec6 numeric =
+          (path.Pose(u - h).Inverse() * path.Pose(u + h)).Log() / (2 * h);
+      EXPECT_LE((path.BodyTwist(u) - numeric).norm(), 1e-8);
+    }
+  }
+}
+
+TEST(Path, TinyAndNoRotation) {
+  for (const double angle : {0.0, 1e-15, 1e-9}) {
+    const SE3d T_1(Eigen::AngleAxisd(angle, Vec3::UnitZ()).toRotationMatrix(), Vec3(1, 2, 3));
+    for (const PathKind kind : kKinds) {
+      const SE3d half = Path(SE3d(), T_1, kind).Pose(0.5);
+      EXPECT_TRUE(half.Matrix().allFinite());
+      EXPECT_LE((half.t() - Vec3(0.5, 1, 1.5)).norm(), 1e-8);
+    }
+  }
+}
+
+TEST(Path, NamesGoRound) {
+  EXPECT_EQ(PathKindFromName("geodesic"), PathKind::kGeodesic);
+  EXPECT_EQ(PathKindFromName("lerp_slerp"), PathKind::kLerpSlerp);
+  EXPECT_THROW(PathKindFromName("spline"), UsageError);
+}
+
+}  // namespace
+}  // namespace icpscape

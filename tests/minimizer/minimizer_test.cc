@@ -1,0 +1,254 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "src/minimizer/minimizer.h"
+
+#include <ceres/loss_function.h>
+#include <gtest/gtest.h>
+
+#include "residuals/registry.h"
+#include "src/cloud/normals.h"
+#include "src/io/kitti.h"
+#include "src/minimizer/ground_truth_check.h"
+#include "src/minimizer/random_starts.h"
+#include "src/objective/loss.h"
+#include "tests/support/real_data.h"
+#include "tests/support/scenes.h"
+
+namespace icpscape {
+namespace {
+
+const SE3d kMotion = SE3d::Exp((Vec6() << 0.01, -0.005, 0.05, 0.3, 0.05, -0.02).finished());
+
+struct MovedRoom {
+  PointCloud target = testing_support::Room(8000, 1, SE3d(), 0.005);
+  PointCloud source = testing_support::Room(8000, 2, kMotion.Inverse(), 0.005);
+  MovedRoom() {
+    EstimateNormals({}, 2, &target);
+    EstimateNormals({}, 2, &source);
+  }
+};
+
+const MovedRoom& Room() {
+  static const MovedRoom room;
+  return room;
+}
+
+double DistanceM(const SE3d& a, const SE3d& b) { return (a.Inverse() * b).t().norm(); }
+double AngleRad(const SE3d& a, const SE3d& b) { return (a.Inverse() * b).LogRotation().norm(); }
+
+class BothModes : public testing::TestWithParam<Reassociation> {
+ protected:
+  static MinimizerOptions Options() {
+    MinimizerOptions options;
+    options.reassociation = GetParam();
+    options.threads = 2;
+    return options;
+  }
+};
+
+TEST_P(BothModes, FindsTheMotionWithEveryMetric) {
+  const ClosestPointMatcher matcher(Room().target);
+  ForEachMetric([&](auto tag) {
+    const char* metric = decltype(tag)::Metric::kName;
+    const Objective objective(metric, Room().source, Room().target, matcher);
+    MinimizerOptions options = Options();
+    options.max_iterations = 200;
+    const MinimizerSummary summary = Minimize(objective, SE3d(), options);
+    ASSERT_TRUE(summary.Usable()) << metric << ": " << summary.message;
+    // Point-to-point is dragged by the sampling of the surfaces; the plane metrics are not.
+    const double limit_m = std::string(metric) == "point_to_point" ? 0.1 : 0.01;
+    EXPECT_LT(DistanceM(kMotion, summary.T_target_source()), limit_m) << metric;
+    EXPECT_LT(AngleRad(kMotion, summary.T_target_source()), limit_m / 5) << metric;
+  });
+}
+
+// What is reported is the re-associated objective at the final pose, bit for bit.
+TEST_P(BothModes, ReportsTheReassociatedCostOfTheFinalPose) {
+  const ClosestPointMatcher matcher(Room().target, {1.0});
+  for (const char* loss : {"none", "huber", "tukey"}) {
+    const Objective objective("point_to_plane", Room().source, Room().target, matcher,
+                              MakeLoss(loss, 0.05));
+    const MinimizerSummary summary = Minimize(objective, SE3d(), Options());
+    ASSERT_TRUE(summary.Usable()) << loss;
+    for (const Iterate& iterate : summary.iterates) {
+      const Evaluation evaluation = objective.Evaluate(iterate.T_target_source, 1);
+      EXPECT_EQ(iterate.cost, evaluation.sums.cost);
+      EXPECT_EQ(iterate.n, evaluation.n());
+    }
+    EXPECT_EQ(summary.final_cost(), summary.iterates.back().cost);
+  }
+}
+
+TEST_P(BothModes, RecordsStepsAndPasses) {
+  const ClosestPointMatcher matcher(Room().target);
+  const Objective objective("point_to_plane", Room().source, Room().target, matcher);
+  const MinimizerSummary summary = Minimize(objective, SE3d(), Options());
+  ASSERT_GT(summary.iterates.size(), 2U);
+  EXPECT_EQ(summary.iterates[0].T_target_source.Matrix(), SE3d().Matrix());
+  EXPECT_EQ(summary.iterates[0].step_m, 0);
+  for (std::size_t i = 1; i < summary.iterates.size(); ++i) {
+    EXPECT_NEAR(summary.iterates[i].step_m,
+                DistanceM(summary.iterates[i - 1].T_target_source,
+                          summary.iterates[i].T_target_source),
+                1e-15);
+    EXPECT_GE(summary.iterates[i].time_s, summary.iterates[i - 1].time_s);
+  }
+  EXPECT_GE(summary.matching_passes, static_cast<int>(summary.iterates.size()));
+}
+
+TEST_P(BothModes, StopsAtTheLimitOfIterations) {
+  const ClosestPointMatcher matcher(Room().target);
+  const Objective objective("point_to_point", Room().source, Room().target, matcher);
+  MinimizerOptions options = Options();
+  options.max_iterations = 3;
+  const MinimizerSummary summary = Minimize(objective, SE3d(), options);
+  EXPECT_EQ(summary.termination, Termination::kMaxIterations);
+  EXPECT_EQ(summary.iterates.size(), 4U);
+}
+
+TEST_P(BothModes, SaysWhenNoPairIsLeft) {
+  const ClosestPointMatcher matcher(Room().target, {1e-9});
+  const Objective objective("point_to_plane", Room().source, Room().target, matcher);
+  const MinimizerSummary summary = Minimize(objective, SE3d(), Options());
+  EXPECT_EQ(summary.termination, Termination::kNoCorrespondences);
+  EXPECT_FALSE(summary.Usable());
+}
+
+TEST_P(BothModes, IdenticalCloudsAreAPerfectFit) {
+  const ClosestPointMatcher matcher(Room().target);
+  const Objective objective("point_to_plane", Room().target, Room().target, matcher);
+  const MinimizerSummary summary = Minimize(objective, SE3d(), Options());
+  ASSERT_TRUE(summary.Usable()) << summary.message;
+  EXPECT_EQ(summary.final_cost(), 0);
+  EXPECT_EQ(summary.T_target_source().Matrix(), SE3d().Matrix());
+}
+
+// A single plane leaves three degrees of freedom open: the others are found, nothing blows up.
+TEST_P(BothModes, OnePlaneMovesOnlyWhereItIsSeen) {
+  PointCloud source, target;
+  for (int i = 0; i < 30; ++i) {
+    for (int j = 0; j < 30; ++j) {
+      testing_support::AddPoint({0.2 * i, 0.2 * j, -1.5}, &source);
+      testing_support::AddPoint({0.2 * i, 0.2 * j, -1.7}, &target);
+    }
+  }
+  EstimateNormals({}, 1, &target);
+  const ClosestPointMatcher matcher(target);
+  const Objective objective("point_to_plane", source, target, matcher);
+  const MinimizerSummary summary = Minimize(objective, SE3d(), Options());
+  ASSERT_TRUE(summary.Usable()) << summary.message;
+  EXPECT_LT((summary.T_target_source().t() - Vec3(0, 0, -0.2)).norm(), 1e-3);
+  EXPECT_LT(summary.final_cost(), 1e-8);
+}
+
+INSTANTIATE_TEST_SUITE_P(Minimizer, BothModes,
+                         testing::Values(Reassociation::kEveryStep,
+                                         Reassociation::kEveryEvaluation),
+                         [](const auto& test) {
+                           return test.param == Reassociation::kEveryStep ? "EveryStep"
+                                                                          : "EveryEvaluation";
+                         });
+
+// Besl and McKay: point-to-point ICP never raises its cost.
+TEST(Minimizer, PointToPointDescendsMonotonically) {
+  const ClosestPointMatcher matcher(Room().target);
+  const Objective objective("point_to_point", Room().source, Room().target, matcher);
+  const MinimizerSummary summary = Minimize(objective, SE3d(), {});
+  ASSERT_GT(summary.iterates.size(), 5U);
+  for (std::size_t i = 1; i < summary.iterates.size(); ++i) {
+    EXPECT_LE(summary.iterates[i].cost, summary.iterates[i - 1].cost * (1 + 1e-12));
+  }
+}
+
+// A loss with rho'' > 0 goes through one residual block per pair.
+TEST(Minimizer, TolerantLossFallsBackToBlocks) {
+  const ClosestPointMatcher matcher(Room().target);
+  const Objective objective("point_to_plane", Room().source, Room().target, matcher,
+                            MakeLoss("tolerant", 0.05));
+  const MinimizerSummary summary = Minimize(objective, SE3d(), {});
+  ASSERT_TRUE(summary.Usable()) << summary.message;
+  EXPECT_LT(DistanceM(kMotion, summary.T_target_source()), 0.02);
+}
+
+TEST(Minimizer, IsBitIdenticalForAnyNumberOfThreads) {
+  const ClosestPointMatcher matcher(Room().target);
+  const Objective objective("point_to_plane", Room().source, Room().target, matcher);
+  MinimizerOptions options;
+  const SE3d one = Minimize(objective, SE3d(), options).T_target_source();
+  options.threads = 3;
+  EXPECT_EQ(one.Matrix(), Minimize(objective, SE3d(), options).T_target_source().Matrix());
+}
+
+TEST(RandomStarts, StayWithinTheirLimitsAndRepeat) {
+  RandomStartOptions options;
+  options.count = 500;
+  const std::vector<SE3d> starts = RandomStarts(kMotion, options);
+  ASSERT_EQ(starts.size(), 500U);
+  double longest = 0, largest = 0;
+  for (const SE3d& start : starts) {
+    longest = std::max(longest, DistanceM(kMotion, start));
+    largest = std::max(largest, AngleRad(kMotion, start));
+  }
+  EXPECT_LE(longest, options.translation_m * 1.001);
+  EXPECT_GE(longest, options.translation_m * 0.97);
+  EXPECT_LE(largest, options.rotation_rad * 1.001);
+  EXPECT_EQ(starts[7].Matrix(), RandomStarts(kMotion, options)[7].Matrix());
+  options.seed = 2;
+  EXPECT_NE(starts[7].Matrix(), RandomStarts(kMotion, options)[7].Matrix());
+}
+
+TEST(RandomStarts, SucceedInARoom) {
+  const ClosestPointMatcher matcher(Room().target);
+  const Objective objective("point_to_plane", Room().source, Room().target, matcher);
+  RandomStartOptions options;
+  options.count = 20;
+  options.minimizer.threads = 2;
+  const std::vector<StartResult> results = RunRandomStarts(objective, kMotion, options);
+  ASSERT_EQ(results.size(), 20U);
+  for (const StartResult& result : results) {
+    EXPECT_TRUE(result.success);
+    EXPECT_GT(result.start_m, 0);
+    EXPECT_LT(result.end_m, kSuccessM);
+  }
+}
+
+TEST(GroundTruthCheck, TellsGoodTruthFromBad) {
+  ICPSCAPE_REQUIRE_KITTI(root);
+  const KittiSequence sequence(root, "00");
+  const auto check = [&](int frame) {
+    DroppedPoints dropped;
+    const PointCloud source = ReadVelodyne(sequence.ScanPath(frame), &dropped);
+    PointCloud target = ReadVelodyne(sequence.ScanPath(frame - 1), &dropped);
+    EstimateNormals({}, 2, &target);
+    return CheckGroundTruth(source, target, sequence.RelativeMotion(frame - 1, frame), 2)
+        .translation_m;
+  };
+  EXPECT_LT(check(95), 0.02);
+  EXPECT_GT(check(1), 0.1);
+}
+
+TEST(Minimizer, RegistersTheRealTurnFromTheIdentity) {
+  ICPSCAPE_REQUIRE_KITTI(root);
+  const KittiSequence sequence(root, "00");
+  DroppedPoints dropped;
+  PointCloud source = ReadVelodyne(sequence.ScanPath(95), &dropped);
+  PointCloud target = ReadVelodyne(sequence.ScanPath(94), &dropped);
+  EstimateNormals({}, 2, &source);
+  EstimateNormals({}, 2, &target);
+  const SE3d truth = sequence.RelativeMotion(94, 95);
+  const ClosestPointMatcher matcher(target);
+  for (const Reassociation mode : {Reassociation::kEveryStep, Reassociation::kEveryEvaluation}) {
+    for (const char* metric : {"point_to_plane", "symmetric"}) {
+      const Objective objective(metric, source, target, matcher);
+      MinimizerOptions options;
+      options.reassociation = mode;
+      options.threads = 2;
+      const MinimizerSummary summary = Minimize(objective, SE3d(), options);
+      ASSERT_TRUE(summary.Usable());
+      EXPECT_LT(DistanceM(truth, summary.T_target_source()), 0.02) << metric;
+      EXPECT_LT(AngleRad(truth, summary.T_target_source()), 0.1 * M_PI / 180) << metric;
+    }
+  }
+}
+
+}  // namespace
+}  // namespace icpscape
