@@ -87,9 +87,9 @@ int RunApp(int argc, char** argv, const std::string& summary, const std::functio
   gflags::SetVersionString(Version());
   gflags::ParseCommandLineFlags(&argc, &argv, true);
   if (argc > 1) {
-    return Fail("stray argument \"" + std::string(argv[1]) +
-                    "\"; expected only --flag=value (see --help).",
-                1);
+    return Fail(
+        "stray argument \"" + std::string(argv[1]) + "\"; expected only --flag=value (see --help).",
+        1);
   }
   try {
     run();

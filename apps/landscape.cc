@@ -34,8 +34,8 @@ void WriteCurves(const std::vector<Curve>& curves, const std::filesystem::path& 
   for (const Curve& curve : curves) {
     Table pgfplots({"u", "rmse"});
     for (const CurvePoint& p : curve.points) {
-      csv.AddRow({curve.metric, Number(p.u), Number(p.rmse), Number(p.rms_residual),
-                  Number(p.cost), Number(p.n), Number(p.slope_analytic), Number(p.slope_numeric),
+      csv.AddRow({curve.metric, Number(p.u), Number(p.rmse), Number(p.rms_residual), Number(p.cost),
+                  Number(p.n), Number(p.slope_analytic), Number(p.slope_numeric),
                   Number(p.inlier_ratio)});
       pgfplots.AddRow({Number(p.u), Number(p.rmse)});
     }
@@ -95,7 +95,8 @@ void Landscape() {
   RecordFlags(&manifest);
   const ScanPair pair = LoadPair(metrics, &manifest);
   if (!pair.T_ground_truth) {
-    throw UsageError("no ground truth: expected --ground_truth=FILE (T_target_source as 4x4 text).");
+    throw UsageError(
+        "no ground truth: expected --ground_truth=FILE (T_target_source as 4x4 text).");
   }
   const SE3d T_reference = ReferencePose(pair, &manifest);
 

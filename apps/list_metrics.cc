@@ -20,7 +20,8 @@ std::string NeedsText(unsigned needs) {
 }
 
 void ListMetrics() {
-  const char* format = FLAGS_markdown ? "| %s | %s | %s | %s | %s |\n" : "%-18s %-4s %-40s %-38s %s\n";
+  const char* format =
+      FLAGS_markdown ? "| %s | %s | %s | %s | %s |\n" : "%-18s %-4s %-40s %-38s %s\n";
   std::printf(format, "name", "rows", "residual", "needs", "source");
   if (FLAGS_markdown) {
     std::printf(format, "---", "---", "---", "---", "---");

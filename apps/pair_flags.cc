@@ -110,7 +110,8 @@ void CheckPairFlags() {
     }
     Require(FLAGS_frame >= 0, "frame", std::to_string(FLAGS_frame), "the number of a scan");
     if (FLAGS_frame == 0 && FLAGS_target_frame < 0) {
-      throw UsageError("--frame=0: no scan comes before it; expected at least 1, or --target_frame.");
+      throw UsageError(
+          "--frame=0: no scan comes before it; expected at least 1, or --target_frame.");
     }
     Require(FLAGS_target_frame >= -1, "target_frame", std::to_string(FLAGS_target_frame),
             "the number of a scan, or -1 for the one before --frame");

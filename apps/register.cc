@@ -48,7 +48,8 @@ MinimizerOptions MinimizerFromFlags() {
   }
   if (options.reassociation == Reassociation::kEveryEvaluation &&
       gflags::GetCommandLineFlagInfoOrDie("loss").current_value == "tolerant") {
-    throw UsageError("--loss=tolerant curves upwards: expected --reassociation=every_step with it.");
+    throw UsageError(
+        "--loss=tolerant curves upwards: expected --reassociation=every_step with it.");
   }
   if (FLAGS_max_iterations < 1 || !(FLAGS_min_step_m >= 0) || !(FLAGS_min_step_deg >= 0)) {
     throw UsageError(
@@ -70,9 +71,13 @@ void WriteIterations(const MinimizerSummary& summary, const std::filesystem::pat
     const Iterate& it = summary.iterates[i];
     std::printf("%4zu %22.15g %12.8f %8ld %11.3e %11.3e %8.3f\n", i, it.cost, it.rmse, it.n,
                 it.step_m, it.step_rad * kDegrees, it.time_s);
-    std::vector<std::string> row = {std::to_string(i), Number(it.cost), Number(it.rmse),
-                                    std::to_string(it.n), Number(it.gradient_norm),
-                                    Number(it.step_m), Number(it.step_rad * kDegrees),
+    std::vector<std::string> row = {std::to_string(i),
+                                    Number(it.cost),
+                                    Number(it.rmse),
+                                    std::to_string(it.n),
+                                    Number(it.gradient_norm),
+                                    Number(it.step_m),
+                                    Number(it.step_rad * kDegrees),
                                     Number(it.time_s)};
     double x[7];
     it.T_target_source.ToParameters(x);
@@ -101,8 +106,8 @@ void RunStarts(const Objective& objective, const SE3d& T_reference, MinimizerOpt
   std::vector<StartResult> results;
   {
     Progress progress("starts", starts.count);
-    results = RunRandomStarts(objective, T_reference, starts,
-                              [&](int done) { progress.Show(done); });
+    results =
+        RunRandomStarts(objective, T_reference, starts, [&](int done) { progress.Show(done); });
   }
   Table csv({"start", "start_m", "start_deg", "end_m", "end_deg", "iterations", "termination",
              "success"});
@@ -116,10 +121,11 @@ void RunStarts(const Objective& objective, const SE3d& T_reference, MinimizerOpt
   }
   csv.WriteCsv(out / "starts.csv");
   const double rate = 100.0 * successes / static_cast<double>(results.size());
-  std::printf("random starts up to %g m, %g deg: %d of %zu succeed (%.1f %%; within %g m and %g "
-              "deg of the refined reference)\n",
-              FLAGS_start_m, FLAGS_start_deg, successes, results.size(), rate, kSuccessM,
-              kSuccessRad * kDegrees);
+  std::printf(
+      "random starts up to %g m, %g deg: %d of %zu succeed (%.1f %%; within %g m and %g "
+      "deg of the refined reference)\n",
+      FLAGS_start_m, FLAGS_start_deg, successes, results.size(), rate, kSuccessM,
+      kSuccessRad * kDegrees);
   manifest->SetResult("success_percent", rate);
   manifest->AddTiming("starts");
 }

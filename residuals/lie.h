@@ -10,8 +10,8 @@ namespace icpscape {
 
 /// Fixed-size matrices; a single row is stored row-major, as Eigen demands.
 template <class S, int kRows, int kCols>
-using Mat = Eigen::Matrix<S, kRows, kCols,
-                          (kRows == 1 && kCols != 1) ? Eigen::RowMajor : Eigen::ColMajor>;
+using Mat =
+    Eigen::Matrix<S, kRows, kCols, (kRows == 1 && kCols != 1) ? Eigen::RowMajor : Eigen::ColMajor>;
 template <class S, int kRows>
 using Vec = Eigen::Matrix<S, kRows, 1>;
 using Vec3 = Vec<double, 3>;
@@ -80,14 +80,12 @@ S InverseJacobianCoefficient(const S& theta2) {
   using std::cos, std::sin, std::sqrt;
   if (theta2 < S(kSeriesAngleSquared)) {
     return S(1. / 12) +
-           theta2 *
-               (S(1. / 720) +
-                theta2 *
-                    (S(1. / 30240) +
-                     theta2 * (S(1. / 1209600) +
-                               theta2 * (S(1. / 47900160) +
-                                         theta2 * (S(691. / 1307674368000) +
-                                                   theta2 * S(1. / 74724249600))))));
+           theta2 * (S(1. / 720) +
+                     theta2 * (S(1. / 30240) +
+                               theta2 * (S(1. / 1209600) +
+                                         theta2 * (S(1. / 47900160) +
+                                                   theta2 * (S(691. / 1307674368000) +
+                                                             theta2 * S(1. / 74724249600))))));
   }
   const S half = sqrt(theta2) / S(2);
   return (S(1) - half * cos(half) / sin(half)) / theta2;
@@ -99,8 +97,8 @@ S InverseJacobianCoefficient(const S& theta2) {
 /// p_source.
 ///
 /// Tangent vectors are xi = [omega; v]: rotation (rad) first, then translation (m). Poses are
-/// updated from the right, T <- T Exp(xi), with the true exponential of SE(3) [Barfoot 2017, ch. 7].
-/// Scalar may be a ceres::Jet.
+/// updated from the right, T <- T Exp(xi), with the true exponential of SE(3) [Barfoot 2017, ch.
+/// 7]. Scalar may be a ceres::Jet.
 template <class Scalar>
 class SE3 {
  public:

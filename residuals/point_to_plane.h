@@ -21,9 +21,7 @@ struct PointToPlane {
   Vec3 q_target;
   Vec3 n_target;
 
-  static PointToPlane From(const Correspondence& c) {
-    return {c.p_source, c.q_target, c.n_target};
-  }
+  static PointToPlane From(const Correspondence& c) { return {c.p_source, c.q_target, c.n_target}; }
 
   template <class S>
   Vec<S, kDim> Residual(const SE3<S>& T_target_source) const {

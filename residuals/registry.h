@@ -16,8 +16,8 @@ struct MetricList {};
 
 /// All metrics. A new metric adds its header above and its name here; flags, tables, landscapes and
 /// solvers follow from this list.
-using AllMetrics = MetricList<PointToPoint, PointToPlane, Symmetric, SymmetricRotated,
-                              SymmetricSplit, TwoPlane>;
+using AllMetrics =
+    MetricList<PointToPoint, PointToPlane, Symmetric, SymmetricRotated, SymmetricSplit, TwoPlane>;
 
 /// Stands for a metric type in a call: decltype(tag)::Metric.
 template <class M>

@@ -83,7 +83,7 @@ struct SymmetricRotated {
 
   Mat<double, kDim, 6> Jacobian(const SE3d& T_target_source) const {
     const Mat3& R = T_target_source.R();
-    const Vec3 a = n_source + R.transpose() * n_target;                     // R^T m
+    const Vec3 a = n_source + R.transpose() * n_target;                          // R^T m
     const Vec3 b = p_source + R.transpose() * (T_target_source.t() - q_target);  // R^T e
     Mat<double, kDim, 6> J;
     J << (p_source.cross(a) + n_source.cross(b)).transpose(), a.transpose();
@@ -135,16 +135,17 @@ struct SymmetricSplit {
     const Mat3 H = h.toRotationMatrix();
     const Vec3 a = T_target_source.R().transpose() * (H * n_sum);
     const Vec3 e = T_target_source * p_source - q_target;
-    const Vec3 b = n_sum.cross(H.transpose() * e);       // (-e^T H skew(m))^T
-    const Vec3 axis = h.vec() / h.w();                   // tan(theta/4) about the axis
-    const Vec3 turn = (b + b.cross(axis)) / 2;           // (b^T M)^T
+    const Vec3 b = n_sum.cross(H.transpose() * e);  // (-e^T H skew(m))^T
+    const Vec3 axis = h.vec() / h.w();              // tan(theta/4) about the axis
+    const Vec3 turn = (b + b.cross(axis)) / 2;      // (b^T M)^T
     Mat<double, kDim, 6> J;
     J << (p_source.cross(a) + turn).transpose(), a.transpose();
     return J;
   }
 };
 
-/// Both point-to-plane distances of a pair, stacked (the form that Rusinkiewicz 2019 compares with).
+/// Both point-to-plane distances of a pair, stacked (the form that Rusinkiewicz 2019 compares
+/// with).
 ///   r(T) = [ e . n_t ; e . R n_s ],  e = R p_s + t - q_t                2x1, metres
 ///   J    = [ n_t^T R [ -skew(p_s) | I ] ;
 ///            n_s^T [ -skew(p_s) | I ] + [ (n_s x b)^T | 0 ],  b = R^T e ]

@@ -146,8 +146,8 @@ class SquareRootCost final : public ceres::SizedCostFunction<7, 7> {
  private:
   void Factor(const NormalEquations& sums) const {
     const Mat6 H = sums.Hessian();
-    valid_ = H.allFinite() && sums.gradient.allFinite() && std::isfinite(sums.cost) &&
-             !sums.upward_loss;
+    valid_ =
+        H.allFinite() && sums.gradient.allFinite() && std::isfinite(sums.cost) && !sums.upward_loss;
     if (!valid_) {
       return;
     }
@@ -156,7 +156,8 @@ class SquareRootCost final : public ceres::SizedCostFunction<7, 7> {
     const Eigen::SelfAdjointEigenSolver<Mat6> eigen(inverse_scale.asDiagonal() * H *
                                                     inverse_scale.asDiagonal());
     const double lambda_max = eigen.eigenvalues()[5];
-    const Vec6 projected = eigen.eigenvectors().transpose() * (inverse_scale.asDiagonal() * sums.gradient);
+    const Vec6 projected =
+        eigen.eigenvectors().transpose() * (inverse_scale.asDiagonal() * sums.gradient);
     factor_.setZero();
     residual_.setZero();
     for (int i = 0; i < 6; ++i) {

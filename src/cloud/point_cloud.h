@@ -18,8 +18,8 @@ namespace icpscape {
 /// and filters keep them in step. All coordinates are finite (the readers drop the rest).
 struct PointCloud {
   std::vector<float> x, y, z;
-  std::vector<float> intensity;   ///< Optional, sensor units.
-  std::vector<float> nx, ny, nz;  ///< Optional unit normals; (0, 0, 0) where there is none.
+  std::vector<float> intensity;     ///< Optional, sensor units.
+  std::vector<float> nx, ny, nz;    ///< Optional unit normals; (0, 0, 0) where there is none.
   std::vector<std::int32_t> ring;   ///< Optional, scan line of the sensor, 0 the uppermost.
   std::vector<std::int32_t> label;  ///< Optional, what was hit (simulated scans know it).
 

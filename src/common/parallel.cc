@@ -10,7 +10,9 @@
 
 namespace icpscape {
 
-int HardwareThreads() { return static_cast<int>(std::max(1U, std::thread::hardware_concurrency())); }
+int HardwareThreads() {
+  return static_cast<int>(std::max(1U, std::thread::hardware_concurrency()));
+}
 
 void ParallelFor(std::size_t count, int threads, const std::function<void(std::size_t)>& body) {
   if (threads <= 1 || count <= 1) {

@@ -82,8 +82,8 @@ void Manifest::AddTiming(const std::string& name) {
 }
 
 void Manifest::Write(const std::filesystem::path& path) const {
-  WriteTextFile(path, impl_->json.dump(2, ' ', false, nlohmann::json::error_handler_t::replace) +
-                          "\n");
+  WriteTextFile(path,
+                impl_->json.dump(2, ' ', false, nlohmann::json::error_handler_t::replace) + "\n");
 }
 
 std::string Version() {

@@ -68,7 +68,8 @@ bool LooksWhole(const std::filesystem::path& path, bool ply) {
     return head.rfind("ply", 0) == 0 && head.find("\nelement vertex ") != std::string::npos &&
            head.find("end_header") != std::string::npos;
   }
-  for (const char* line : {"FIELDS ", "SIZE ", "TYPE ", "WIDTH ", "HEIGHT ", "POINTS ", "\nDATA "}) {
+  for (const char* line :
+       {"FIELDS ", "SIZE ", "TYPE ", "WIDTH ", "HEIGHT ", "POINTS ", "\nDATA "}) {
     if (head.find(line) == std::string::npos) {
       return false;
     }

@@ -15,10 +15,9 @@ std::size_t Matches::Count() const {
 
 ClosestPointMatcher::ClosestPointMatcher(const PointCloud& target, const MatchingOptions& options)
     : search_(target.View()),
-      max_squared_distance_(
-          options.max_distance_m > 0
-              ? static_cast<float>(options.max_distance_m * options.max_distance_m)
-              : std::numeric_limits<float>::max()) {}
+      max_squared_distance_(options.max_distance_m > 0 ? static_cast<float>(options.max_distance_m *
+                                                                            options.max_distance_m)
+                                                       : std::numeric_limits<float>::max()) {}
 
 void ClosestPointMatcher::Match(const PointCloud& source, const SE3d& T_target_source, int threads,
                                 Matches* matches) const {

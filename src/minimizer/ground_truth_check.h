@@ -10,8 +10,8 @@ namespace icpscape {
 /// over a drive but can be decimetres off from one scan to the next: an argmin that is off by as
 /// much is the pose's error, not the metric's.
 struct GroundTruthCheck {
-  SE3d T_refined;           ///< Where point-to-plane ends.
-  double translation_m = 0; ///< Length of the translation between the two poses.
+  SE3d T_refined;            ///< Where point-to-plane ends.
+  double translation_m = 0;  ///< Length of the translation between the two poses.
   double rotation_rad = 0;
   MinimizerSummary summary;
 };

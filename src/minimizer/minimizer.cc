@@ -83,8 +83,7 @@ class Loop {
 
   // Whether the last recorded step ends the loop.
   bool Converged() const {
-    return summary_.iterates.size() > 1 &&
-           summary_.iterates.back().step_m < options_.min_step_m &&
+    return summary_.iterates.size() > 1 && summary_.iterates.back().step_m < options_.min_step_m &&
            summary_.iterates.back().step_rad < options_.min_step_rad;
   }
 
@@ -94,14 +93,14 @@ class Loop {
     return std::move(summary_);
   }
   MinimizerSummary EndNoCorrespondences() {
-    return End(Termination::kNoCorrespondences,
-               "No pair of points is left after " + std::to_string(summary_.iterates.size()) +
-                   " iterates.");
+    return End(Termination::kNoCorrespondences, "No pair of points is left after " +
+                                                    std::to_string(summary_.iterates.size()) +
+                                                    " iterates.");
   }
   MinimizerSummary EndMaxIterations() {
-    return End(Termination::kMaxIterations, "The limit of " +
-                                                std::to_string(options_.max_iterations) +
-                                                " iterations was reached.");
+    return End(
+        Termination::kMaxIterations,
+        "The limit of " + std::to_string(options_.max_iterations) + " iterations was reached.");
   }
   MinimizerSummary EndConverged() {
     return End(Termination::kConverged, "The last step was shorter than the limit.");
@@ -145,9 +144,8 @@ bool Step(const Objective& objective, const Loop& loop, const Matches& matches,
     bool first = true;
     problem.AddResidualBlock(new SquareRootCost([&, first](const SE3d& T) mutable {
                                // Ceres begins with the pose that was evaluated a moment ago.
-                               return std::exchange(first, false)
-                                          ? at_start.sums
-                                          : loop.Frozen(T, matches).sums;
+                               return std::exchange(first, false) ? at_start.sums
+                                                                  : loop.Frozen(T, matches).sums;
                              }),
                              nullptr, x->data());
   }
@@ -244,9 +242,9 @@ MinimizerSummary MinimizeEveryEvaluation(Parameters x, Loop loop) {
   }
   const bool converged = loop.Converged();
   // Ceres returns the pose of least cost: what came after it was an excursion.
-  const auto best = std::min_element(
-      iterates->begin(), iterates->end(),
-      [](const Iterate& a, const Iterate& b) { return a.cost < b.cost; });
+  const auto best =
+      std::min_element(iterates->begin(), iterates->end(),
+                       [](const Iterate& a, const Iterate& b) { return a.cost < b.cost; });
   iterates->erase(best + 1, iterates->end());
   if (converged) {
     return loop.EndConverged();

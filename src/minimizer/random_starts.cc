@@ -59,8 +59,7 @@ std::vector<StartResult> RunRandomStarts(const Objective& objective, const SE3d&
       result.end_rad = end.LogRotation().norm();
       result.iterations = static_cast<int>(summary.iterates.size()) - 1;
     }
-    result.success =
-        summary.Usable() && result.end_m < kSuccessM && result.end_rad < kSuccessRad;
+    result.success = summary.Usable() && result.end_m < kSuccessM && result.end_rad < kSuccessRad;
     if (progress) {
       const std::lock_guard<std::mutex> lock(mutex);
       progress(++done);

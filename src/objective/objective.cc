@@ -57,8 +57,7 @@ void ForEachPair(const Inputs& in, std::size_t begin, std::size_t end, const Use
   for (std::size_t i = begin; i < end; ++i) {
     const int j = in.matches.target_index[i];
     Metric metric;
-    if (j >= 0 &&
-        MakeMetric(in.source, in.target, i, static_cast<std::size_t>(j), &metric)) {
+    if (j >= 0 && MakeMetric(in.source, in.target, i, static_cast<std::size_t>(j), &metric)) {
       use(metric);
     }
   }
@@ -110,9 +109,7 @@ void Add(const Evaluation& part, Evaluation* sum) {
 
 double Evaluation::Rmse() const { return std::sqrt(epsilon / static_cast<double>(n())); }
 
-double Evaluation::RmsResidual() const {
-  return std::sqrt(sum_squared / static_cast<double>(n()));
-}
+double Evaluation::RmsResidual() const { return std::sqrt(sum_squared / static_cast<double>(n())); }
 
 double Evaluation::RmseSlope(const Vec6& body_twist) const {
   return epsilon_gradient.dot(body_twist) / (2 * static_cast<double>(n()) * Rmse());
@@ -142,9 +139,8 @@ Objective::Objective(const std::string& metric, const PointCloud& source, const 
       loss_(std::move(loss)),
       functions_(nullptr) {
   CheckMetricName(metric);
-  WithMetric(metric, [&](auto tag) {
-    functions_ = MetricFunctions::Of<typename decltype(tag)::Metric>();
-  });
+  WithMetric(metric,
+             [&](auto tag) { functions_ = MetricFunctions::Of<typename decltype(tag)::Metric>(); });
   CHECK((functions_->needs & kSourceNormal) == 0 || source.has_normals())
       << metric << " needs normals in the source cloud";
   CHECK((functions_->needs & kTargetNormal) == 0 || target.has_normals())
@@ -164,8 +160,7 @@ Evaluation Objective::Evaluate(const SE3d& T_target_source, const Matches& match
   std::vector<Evaluation> parts((source_->size() + kChunk - 1) / kChunk);
   ParallelFor(parts.size(), threads, [&](std::size_t part) {
     const std::size_t end = std::min(source_->size(), (part + 1) * kChunk);
-    parts[part] =
-        functions_->evaluate(in, T_target_source, loss_.get(), part * kChunk, end);
+    parts[part] = functions_->evaluate(in, T_target_source, loss_.get(), part * kChunk, end);
   });
   Evaluation sum;
   for (const Evaluation& part : parts) {

@@ -34,7 +34,8 @@ std::string InputMessage(const F& f) {
 TEST(Text, NumbersReadBackExactly) {
   std::mt19937_64 engine(1);
   for (int i = 0; i < 1000; ++i) {
-    const double value = std::ldexp(static_cast<double>(engine()), static_cast<int>(engine() % 100) - 80);
+    const double value =
+        std::ldexp(static_cast<double>(engine()), static_cast<int>(engine() % 100) - 80);
     EXPECT_EQ(std::stod(Number(value)), value);
   }
   EXPECT_EQ(Number(0.1), "0.1");
@@ -103,9 +104,10 @@ TEST(PointFiles, RefusesBrokenFiles) {
   const std::string whole = ReadFile(folder.path() / "whole.ply");
   const auto torn = folder.Write("torn.ply", whole.substr(0, whole.size() / 2));
   EXPECT_THAT(message(torn), HasSubstr("torn.ply"));
-  EXPECT_THAT(message(folder.Write("flat.ply", "ply\nformat ascii 1.0\nelement vertex 1\n"
-                                               "property float x\nproperty float y\nend_header\n"
-                                               "1 2\n")),
+  EXPECT_THAT(message(folder.Write("flat.ply",
+                                   "ply\nformat ascii 1.0\nelement vertex 1\n"
+                                   "property float x\nproperty float y\nend_header\n"
+                                   "1 2\n")),
               HasSubstr("no field z"));
 }
 

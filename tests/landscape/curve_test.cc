@@ -85,8 +85,7 @@ TEST(Curve, NumericSlopesAreExactForAParabola) {
   testing_support::AddPoint({5, 0, 0}, &source);
   testing_support::AddPoint({6, 0, 0}, &target);
   const ClosestPointMatcher matcher(target);
-  const std::vector<Objective> objectives = {
-      Objective("point_to_point", source, target, matcher)};
+  const std::vector<Objective> objectives = {Objective("point_to_point", source, target, matcher)};
   CurveOptions options;
   options.u_max = 0.5;
   options.samples = 4;
@@ -153,9 +152,8 @@ TEST(Curve, RealScansHaveTheirMinimumAtTheGroundTruth) {
     EstimateNormals({}, 2, &target);
     const SE3d truth = sequence.RelativeMotion(c.frame - 1, c.frame);
     const ClosestPointMatcher matcher(target);
-    const std::vector<Objective> objectives = {
-        Objective("point_to_plane", source, target, matcher),
-        Objective("symmetric", source, target, matcher)};
+    const std::vector<Objective> objectives = {Objective("point_to_plane", source, target, matcher),
+                                               Objective("symmetric", source, target, matcher)};
     CurveOptions options;
     options.u_min = 17. / 33;  // The default grid's own samples about the minimum.
     options.u_max = 49. / 33;

@@ -65,8 +65,7 @@ TEST(Path, BodyTwistIsTheDerivative) {
     for (int i = 0; i < 100; ++i) {
       const Path path(sampler.Pose(3, 1), sampler.Pose(3, 1), kind);
       const double u = sampler.Uniform(-1, 2);
-      const Vec6 numeric =
-          (path.Pose(u - h).Inverse() * path.Pose(u + h)).Log() / (2 * h);
+      const Vec6 numeric = (path.Pose(u - h).Inverse() * path.Pose(u + h)).Log() / (2 * h);
       EXPECT_LE((path.BodyTwist(u) - numeric).norm(), 1e-8);
     }
   }

@@ -86,10 +86,10 @@ TEST_P(BothModes, RecordsStepsAndPasses) {
   EXPECT_EQ(summary.iterates[0].T_target_source.Matrix(), SE3d().Matrix());
   EXPECT_EQ(summary.iterates[0].step_m, 0);
   for (std::size_t i = 1; i < summary.iterates.size(); ++i) {
-    EXPECT_NEAR(summary.iterates[i].step_m,
-                DistanceM(summary.iterates[i - 1].T_target_source,
-                          summary.iterates[i].T_target_source),
-                1e-15);
+    EXPECT_NEAR(
+        summary.iterates[i].step_m,
+        DistanceM(summary.iterates[i - 1].T_target_source, summary.iterates[i].T_target_source),
+        1e-15);
     EXPECT_GE(summary.iterates[i].time_s, summary.iterates[i - 1].time_s);
   }
   EXPECT_GE(summary.matching_passes, static_cast<int>(summary.iterates.size()));

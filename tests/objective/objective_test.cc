@@ -56,8 +56,7 @@ CeresAnswer EvaluateProblem(ceres::Problem* problem, double* x) {
 }
 
 // Every metric with every loss.
-class EqualsCeres
-    : public testing::TestWithParam<std::tuple<std::string, std::string>> {};
+class EqualsCeres : public testing::TestWithParam<std::tuple<std::string, std::string>> {};
 
 TEST_P(EqualsCeres, OnFrozenMatches) {
   const auto& [metric, loss_name] = GetParam();

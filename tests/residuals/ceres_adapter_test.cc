@@ -84,8 +84,7 @@ void ExpectBlockEqualsSums(const std::vector<Metric>& metrics, const SE3d& T,
   EXPECT_NEAR(residual.squaredNorm(), 2 * sums.cost, 1e-12 * (2 * sums.cost) + 1e-30);
   EXPECT_LE((tangent.transpose() * residual - sums.gradient).norm(),
             1e-12 * (sums.gradient.norm() + std::sqrt(2 * sums.cost * sums.Hessian().norm())));
-  EXPECT_LE((tangent.transpose() * tangent - sums.Hessian()).norm(),
-            1e-12 * sums.Hessian().norm());
+  EXPECT_LE((tangent.transpose() * tangent - sums.Hessian()).norm(), 1e-12 * sums.Hessian().norm());
   // Without Jacobians: the same residual.
   double again[7];
   ASSERT_TRUE(cost.Evaluate(parameters, again, nullptr));
@@ -207,8 +206,8 @@ TEST_P(SameIterates, AsOneBlockPerPair) {
     blocks.AddResidualBlock(new CeresCost<PointToPlane>(metric), loss, x_blocks);
   }
   Problem root(borrowed);
-  root.AddResidualBlock(
-      new SquareRootCost([&](const SE3d& T) { return SumsAt(metrics, T, loss); }), nullptr, x_root);
+  root.AddResidualBlock(new SquareRootCost([&](const SE3d& T) { return SumsAt(metrics, T, loss); }),
+                        nullptr, x_root);
   const std::vector<double> costs_blocks = Solve(&blocks, x_blocks, options);
   const std::vector<double> costs_root = Solve(&root, x_root, options);
   ASSERT_EQ(costs_blocks.size(), costs_root.size());

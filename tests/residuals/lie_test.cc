@@ -29,8 +29,9 @@ Vec6 RandomTwist(std::mt19937* engine, double angle) {
   return xi;
 }
 
-const double kAngles[] = {0, 1e-12, 1e-8, 1e-5, 1e-4, 1e-3, 0.01, 0.1, 0.4999, 0.5001, 1, 2, 3,
-                          3.1, M_PI - 1e-3, M_PI - 1e-6, M_PI - 1e-9};
+const double kAngles[] = {0,    1e-12, 1e-8,        1e-5,        1e-4,       1e-3,
+                          0.01, 0.1,   0.4999,      0.5001,      1,          2,
+                          3,    3.1,   M_PI - 1e-3, M_PI - 1e-6, M_PI - 1e-9};
 
 TEST(Lie, ExpIsTheMatrixExponential) {
   std::mt19937 engine(1);
@@ -61,7 +62,8 @@ TEST(Lie, SmallRotationsKeepTheirDigits) {
 }
 
 TEST(Lie, LogAtExactlyPiGivesARotationByPi) {
-  for (const Vec3& axis : {Vec3(1, 0, 0), Vec3(0, 1, 0), Vec3(0, 0, 1), Vec3(1, 2, -2).normalized().eval()}) {
+  for (const Vec3& axis :
+       {Vec3(1, 0, 0), Vec3(0, 1, 0), Vec3(0, 0, 1), Vec3(1, 2, -2).normalized().eval()}) {
     const Mat3 R = 2 * axis * axis.transpose() - Mat3::Identity();
     const Vec3 omega = SE3d(R, Vec3::Zero()).LogRotation();
     EXPECT_NEAR(omega.norm(), M_PI, 1e-15);
@@ -139,8 +141,9 @@ TEST(Lie, JetsThroughLogAwayFromTheIdentity) {
     const Vec<Jet, 6> log = (T.cast<Jet>() * SE3<Jet>::Exp(delta)).Log();
     constexpr double h = 1e-5;
     for (int i = 0; i < 6; ++i) {
-      const Vec6 numeric = ((T * SE3d::Exp(h * Vec6::Unit(i))).Log() -
-                            (T * SE3d::Exp(-h * Vec6::Unit(i))).Log()) / (2 * h);
+      const Vec6 numeric =
+          ((T * SE3d::Exp(h * Vec6::Unit(i))).Log() - (T * SE3d::Exp(-h * Vec6::Unit(i))).Log()) /
+          (2 * h);
       for (int row = 0; row < 6; ++row) {
         EXPECT_NEAR(log[row].v[i], numeric[row], 1e-6) << "angle " << angle;
       }

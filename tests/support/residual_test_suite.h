@@ -126,8 +126,10 @@ TYPED_TEST_P(ResidualTest, JacobianMatchesAutodiff) {
   for (const auto& sample : this->SmoothSamples()) {
     const auto J = sample.metric.Jacobian(sample.T);
     const auto expected = this->AutodiffJacobian(sample);
-    EXPECT_LE((J - expected).norm(), 1e-12 * expected.norm())
-        << "at\n" << sample.T.Matrix() << "\nanalytic\n" << J << "\nautodiff\n" << expected;
+    EXPECT_LE((J - expected).norm(), 1e-12 * expected.norm()) << "at\n"
+                                                              << sample.T.Matrix() << "\nanalytic\n"
+                                                              << J << "\nautodiff\n"
+                                                              << expected;
   }
 }
 
@@ -137,9 +139,9 @@ TYPED_TEST_P(ResidualTest, JacobianMatchesCentralDifferences) {
     const auto J = sample.metric.Jacobian(sample.T);
     const auto expected = this->NumericJacobian(sample, h);
     // The second term is the rounding of the difference quotient itself.
-    const double tolerance = 1e-7 * (1 + J.norm()) +
-                             10 * std::numeric_limits<double>::epsilon() *
-                                 (sample.T.t().norm() + sample.pair.p_source.norm()) / h;
+    const double tolerance =
+        1e-7 * (1 + J.norm()) + 10 * std::numeric_limits<double>::epsilon() *
+                                    (sample.T.t().norm() + sample.pair.p_source.norm()) / h;
     EXPECT_LE((J - expected).norm(), tolerance) << "at\n" << sample.T.Matrix();
   }
 }
@@ -160,7 +162,8 @@ TYPED_TEST_P(ResidualTest, TaylorRemainderIsOfSecondOrder) {
     const auto r = sample.metric.Residual(sample.T);
     const auto J = sample.metric.Jacobian(sample.T);
     const auto remainder = [&](double h) {
-      return (sample.metric.Residual(sample.T * SE3d::Exp(h * xi)) - r - h * (J * xi)).squaredNorm();
+      return (sample.metric.Residual(sample.T * SE3d::Exp(h * xi)) - r - h * (J * xi))
+          .squaredNorm();
     };
     coarse += remainder(kCoarse);
     fine += remainder(kFine);
@@ -196,7 +199,9 @@ TYPED_TEST_P(ResidualTest, CeresCostPassesGradientChecker) {
     const ceres::Matrix& numeric = results.local_numeric_jacobians[0];
     const double rounding = 1e-9 * sample.T.t().norm();
     EXPECT_LE((analytic - numeric).norm(), 1e-7 * (1 + numeric.norm()) + rounding)
-        << "analytic\n" << analytic << "\nnumeric\n" << numeric;
+        << "analytic\n"
+        << analytic << "\nnumeric\n"
+        << numeric;
     EXPECT_LE((analytic - sample.metric.Jacobian(SE3d::FromParameters(x))).norm(),
               1e-12 * (1 + analytic.norm()));
     // Without Jacobians the residual is the same, bit for bit.
@@ -250,8 +255,8 @@ TYPED_TEST_P(ResidualTest, TargetFrameMattersOnlyWhereDocumented) {
     const SE3d G = sampler.Pose(5, 1);
     const TypeParam moved = TypeParam::From(ChangeFrames(sample.pair, SE3d(), G));
     const double size = 1 + sample.T.t().norm() + sample.pair.p_source.norm();
-    const double change = std::abs(moved.Residual(G * sample.T).norm() -
-                                   sample.metric.Residual(sample.T).norm());
+    const double change =
+        std::abs(moved.Residual(G * sample.T).norm() - sample.metric.Residual(sample.T).norm());
     largest = std::max(largest, change / size);
   }
   if (ResidualProperties<TypeParam>::kInvariantToTargetFrame) {
@@ -264,8 +269,7 @@ TYPED_TEST_P(ResidualTest, TargetFrameMattersOnlyWhereDocumented) {
 REGISTER_TYPED_TEST_SUITE_P(ResidualTest, JacobianMatchesAutodiff,
                             JacobianMatchesCentralDifferences, TaylorRemainderIsOfSecondOrder,
                             CeresCostPassesGradientChecker, DocumentedNullSpaceIsFlat,
-                            FiniteEverywhere, ZeroAtAPerfectMatch,
-                            InvariantToACommonChangeOfFrames,
+                            FiniteEverywhere, ZeroAtAPerfectMatch, InvariantToACommonChangeOfFrames,
                             TargetFrameMattersOnlyWhereDocumented);
 
 }  // namespace icpscape

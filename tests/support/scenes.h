@@ -28,12 +28,24 @@ inline PointCloud Room(int points, unsigned seed, const SE3d& T_sensor_room = SE
     const double a = unit(engine), b = unit(engine);
     Vec3 p;
     switch (i % 7) {
-      case 0: p = {-10, 12 * a - 6, 4 * b - 2}; break;
-      case 1: p = {10, 12 * a - 6, 4 * b - 2}; break;
-      case 2: p = {20 * a - 10, -6, 4 * b - 2}; break;
-      case 3: p = {20 * a - 10, 6, 4 * b - 2}; break;
-      case 4: p = {20 * a - 10, 12 * b - 6, -2}; break;
-      case 5: p = {20 * a - 10, 12 * b - 6, 2}; break;
+      case 0:
+        p = {-10, 12 * a - 6, 4 * b - 2};
+        break;
+      case 1:
+        p = {10, 12 * a - 6, 4 * b - 2};
+        break;
+      case 2:
+        p = {20 * a - 10, -6, 4 * b - 2};
+        break;
+      case 3:
+        p = {20 * a - 10, 6, 4 * b - 2};
+        break;
+      case 4:
+        p = {20 * a - 10, 12 * b - 6, -2};
+        break;
+      case 5:
+        p = {20 * a - 10, 12 * b - 6, 2};
+        break;
       default:  // The pillar, half a metre thick.
         p = {4 + 0.25 * std::cos(2 * M_PI * a), 3 + 0.25 * std::sin(2 * M_PI * a), 4 * b - 2};
     }

@@ -1,0 +1,313 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// The programs as users run them: results, and one sentence and an exit code for bad input.
+#include <fcntl.h>
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+#include <spawn.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <nlohmann/json.hpp>
+#include <sstream>
+#include <vector>
+
+#include "src/common/text.h"
+#include "src/io/point_files.h"
+#include "src/io/transform.h"
+#include "tests/support/real_data.h"
+#include "tests/support/scenes.h"
+#include "tests/support/temporary_folder.h"
+
+extern char** environ;
+
+namespace icpscape {
+namespace {
+
+using testing::HasSubstr;
+using testing_support::ReadFile;
+using testing_support::TemporaryFolder;
+
+struct Outcome {
+  int code = -1;
+  std::string out;
+  std::string err;
+};
+
+Outcome RunProgram(const std::string& app, std::vector<std::string> arguments) {
+  const TemporaryFolder capture;
+  const std::string program = std::string(ICPSCAPE_BIN_DIR) + "/icpscape-" + app;
+  arguments.insert(arguments.begin(), program);
+  std::vector<char*> argv;
+  for (std::string& argument : arguments) {
+    argv.push_back(argument.data());
+  }
+  argv.push_back(nullptr);
+  posix_spawn_file_actions_t actions;
+  posix_spawn_file_actions_init(&actions);
+  const std::string out = (capture.path() / "out").string();
+  const std::string err = (capture.path() / "err").string();
+  posix_spawn_file_actions_addopen(&actions, STDOUT_FILENO, out.c_str(), O_CREAT | O_WRONLY, 0600);
+  posix_spawn_file_actions_addopen(&actions, STDERR_FILENO, err.c_str(), O_CREAT | O_WRONLY, 0600);
+  pid_t pid = 0;
+  Outcome outcome;
+  if (posix_spawn(&pid, program.c_str(), &actions, nullptr, argv.data(), environ) == 0) {
+    int status = 0;
+    waitpid(pid, &status, 0);
+    outcome.code = WIFEXITED(status) ? WEXITSTATUS(status) : 128 + WTERMSIG(status);
+  }
+  posix_spawn_file_actions_destroy(&actions);
+  outcome.out = ReadFile(out);
+  outcome.err = ReadFile(err);
+  return outcome;
+}
+
+/// Exit code, exactly one line on stderr, and what it must say.
+void ExpectRefusal(const Outcome& outcome, int code, const std::string& says) {
+  EXPECT_EQ(outcome.code, code) << outcome.err;
+  EXPECT_THAT(outcome.err, HasSubstr(says));
+  EXPECT_EQ(std::count(outcome.err.begin(), outcome.err.end(), '\n'), 1) << outcome.err;
+}
+
+/// A room seen twice, 0.3 m apart, as files; and a small KITTI folder.
+class Apps : public testing::Test {
+ protected:
+  Apps() {
+    const SE3d T = SE3d::Exp((Vec6() << 0, 0, 0.03, 0.3, 0.05, 0).finished());
+    const PointCloud target = testing_support::Room(3000, 1, SE3d(), 0.005);
+    const PointCloud source = testing_support::Room(3000, 2, T.Inverse(), 0.005);
+    WritePly(folder_.path() / "target.ply", target);
+    WritePly(folder_.path() / "source.ply", source);
+    folder_.Write("truth.txt", FormatTransform(T));
+    WriteBin("kitti/sequences/00/velodyne/000000.bin", target);
+    WriteBin("kitti/sequences/00/velodyne/000001.bin", source);
+    folder_.Write("kitti/sequences/00/calib.txt", "Tr: 1 0 0 0 0 1 0 0 0 0 1 0\n");
+    std::string row = FormatTransform(T).substr(0, FormatTransform(T).find("\n0 0 0 1"));
+    std::replace(row.begin(), row.end(), '\n', ' ');
+    folder_.Write("kitti/poses/00.txt", "1 0 0 0 0 1 0 0 0 0 1 0\n" + row + "\n");
+  }
+
+  void WriteBin(const std::string& name, const PointCloud& cloud) const {
+    std::string bytes;
+    for (std::size_t i = 0; i < cloud.size(); ++i) {
+      const float record[] = {cloud.x[i], cloud.y[i], cloud.z[i], 0.5F};
+      bytes.append(reinterpret_cast<const char*>(record), sizeof record);
+    }
+    folder_.Write(name, bytes);
+  }
+
+  std::string Path(const std::string& name) const { return (folder_.path() / name).string(); }
+
+  std::vector<std::string> Files(std::vector<std::string> more = {}) const {
+    more.insert(more.begin(), {"--source=" + Path("source.ply"), "--target=" + Path("target.ply"),
+                               "--ground_truth=" + Path("truth.txt"), "--out=" + Path("out")});
+    return more;
+  }
+  std::vector<std::string> Kitti(std::vector<std::string> more = {}) const {
+    more.insert(more.begin(), {"--kitti_root=" + Path("kitti"), "--frame=1", "--out=" + Path("out"),
+                               "--samples=4"});
+    return more;
+  }
+
+  TemporaryFolder folder_;
+};
+
+std::vector<std::map<std::string, std::string>> ReadCsv(const std::string& path) {
+  std::istringstream in(ReadFile(path));
+  std::string line;
+  std::getline(in, line);
+  const std::vector<std::string> columns = Split(line);
+  std::vector<std::map<std::string, std::string>> rows;
+  while (std::getline(in, line)) {
+    const std::vector<std::string> cells = Split(line);
+    EXPECT_EQ(cells.size(), columns.size());
+    std::map<std::string, std::string> row;
+    for (std::size_t i = 0; i < cells.size(); ++i) {
+      row[columns[i]] = cells[i];
+    }
+    rows.push_back(row);
+  }
+  return rows;
+}
+
+TEST_F(Apps, LandscapeWritesTablesFiguresAndManifest) {
+  const Outcome outcome = RunProgram("landscape", Files({"--samples=31"}));
+  ASSERT_EQ(outcome.code, 0) << outcome.err;
+  EXPECT_THAT(outcome.out, HasSubstr("ground-truth check"));
+  const auto rows = ReadCsv(Path("out/curves.csv"));
+  ASSERT_EQ(rows.size(), 3U * 31U);
+  std::map<std::string, std::pair<double, double>> minima;  // rmse, u
+  for (const auto& row : rows) {
+    const double rmse = std::stod(row.at("rmse"));
+    auto [it, is_new] = minima.try_emplace(row.at("metric"), rmse, std::stod(row.at("u")));
+    if (!is_new && rmse < it->second.first) {
+      it->second = {rmse, std::stod(row.at("u"))};
+    }
+    EXPECT_NEAR(rmse, std::sqrt(2 * std::stod(row.at("cost")) / std::stod(row.at("n"))), 1e-12);
+  }
+  EXPECT_NEAR(minima["point_to_plane"].second, 1, 0.11);
+  EXPECT_NEAR(minima["symmetric"].second, 1, 0.11);
+  const auto manifest = nlohmann::json::parse(ReadFile(Path("out/manifest.json")));
+  EXPECT_EQ(manifest["flags"]["samples"], "31");
+  EXPECT_EQ(manifest["inputs"].size(), 3U);
+  EXPECT_TRUE(manifest["timings_s"].contains("landscape"));
+  EXPECT_THAT(ReadFile(Path("out/landscape.svg")), HasSubstr("</svg>"));
+  EXPECT_THAT(ReadFile(Path("out/landscape.png")), testing::StartsWith("\x89PNG"));
+  EXPECT_THAT(ReadFile(Path("out/symmetric_rmse.txt")), testing::StartsWith("u rmse\n-1 "));
+}
+
+TEST_F(Apps, LandscapeIsTheSameForAnyNumberOfThreads) {
+  ASSERT_EQ(RunProgram("landscape", Files({"--samples=11", "--threads=1"})).code, 0);
+  const std::string one = ReadFile(Path("out/curves.csv"));
+  ASSERT_EQ(RunProgram("landscape", Files({"--samples=11", "--threads=2"})).code, 0);
+  EXPECT_EQ(one, ReadFile(Path("out/curves.csv")));
+}
+
+TEST_F(Apps, RegisterFindsTheMotionAndItsCostIsTheLandscapes) {
+  const Outcome outcome = RunProgram("register", Files({"--starts=10"}));
+  ASSERT_EQ(outcome.code, 0) << outcome.err;
+  EXPECT_THAT(outcome.out, HasSubstr("10 of 10 succeed"));
+  const SE3d T = ReadTransform(Path("out/T_target_source.txt"));
+  const SE3d off = ReadTransform(Path("truth.txt")).Inverse() * T;
+  EXPECT_LT(off.t().norm(), 0.02);
+  DroppedPoints dropped;
+  EXPECT_EQ(ReadPointFile(Path("out/aligned.ply"), &dropped).size(), 3000U);
+  const auto iterations = ReadCsv(Path("out/iterations.csv"));
+  const std::string cost = iterations.back().at("cost");
+  EXPECT_THAT(outcome.out, HasSubstr("final cost: " + cost));
+  EXPECT_EQ(ReadCsv(Path("out/starts.csv")).size(), 10U);
+  // The landscape at that very pose: u = 1 of a path that ends there.
+  auto arguments = Files({"--samples=2", "--u_min=0", "--u_max=1", "--metrics=point_to_plane"});
+  arguments[2] = "--ground_truth=" + Path("out/T_target_source.txt");
+  arguments[3] = "--out=" + Path("out2");
+  ASSERT_EQ(RunProgram("landscape", arguments).code, 0);
+  const double landscape = std::stod(ReadCsv(Path("out2/curves.csv")).back().at("cost"));
+  EXPECT_NEAR(landscape, std::stod(cost), 1e-12 * landscape);
+}
+
+TEST_F(Apps, RefinedReferenceMovesUToItsEnd) {
+  ASSERT_EQ(RunProgram("landscape", Kitti({"--reference=refined"})).code, 0);
+  const auto manifest = nlohmann::json::parse(ReadFile(Path("out/manifest.json")));
+  EXPECT_GT(manifest["results"]["ground_truth_check_m"], 0);
+}
+
+TEST_F(Apps, FlagfileWorks) {
+  folder_.Write("flags", "--samples=5\n--metrics=symmetric\n");
+  ASSERT_EQ(RunProgram("landscape", Files({"--flagfile=" + Path("flags")})).code, 0);
+  EXPECT_EQ(ReadCsv(Path("out/curves.csv")).size(), 5U);
+}
+
+TEST(AppsHelp, ListsOwnFlagsAndExitsWithZero) {
+  for (const char* app : {"landscape", "register", "list_metrics"}) {
+    const Outcome outcome = RunProgram(app, {"--help"});
+    EXPECT_EQ(outcome.code, 0);
+    EXPECT_THAT(outcome.out, HasSubstr("Exit codes"));
+    EXPECT_THAT(outcome.out, Not(HasSubstr("logtostderr")));
+  }
+  EXPECT_THAT(RunProgram("landscape", {"--help"}).out, HasSubstr("--samples  (int32, default 100)"));
+}
+
+TEST(AppsListMetrics, NamesAll) {
+  const Outcome outcome = RunProgram("list_metrics", {});
+  EXPECT_EQ(outcome.code, 0);
+  for (const char* name : {"point_to_point", "point_to_plane", "symmetric_rotated", "two_plane"}) {
+    EXPECT_THAT(outcome.out, HasSubstr(name));
+  }
+}
+
+TEST_F(Apps, WrongCommandLines) {
+  ExpectRefusal(RunProgram("landscape", {}), 1, "expected --kitti_root=DIR --frame=N, or --source");
+  ExpectRefusal(RunProgram("landscape", Files({"stray"})), 1, "stray argument \"stray\"");
+  ExpectRefusal(RunProgram("landscape", Files({"--nonsense=1"})), 1, "nonsense");
+  ExpectRefusal(RunProgram("landscape", Files({"--samples=1"})), 1, "samples 1: expected at least 2");
+  ExpectRefusal(RunProgram("landscape", Files({"--u_min=2", "--u_max=2"})), 1, "expected u_min below");
+  ExpectRefusal(RunProgram("landscape", Files({"--metrics=point_to_pint"})), 1,
+                "expected one of point_to_point, point_to_plane, symmetric");
+  ExpectRefusal(RunProgram("landscape", Files({"--metrics="})), 1, "expected at least one metric");
+  ExpectRefusal(RunProgram("landscape", Files({"--path=spline"})), 1, "lerp_slerp, geodesic");
+  ExpectRefusal(RunProgram("landscape", Files({"--normal_neighbors=2"})), 1, "expected at least 3");
+  ExpectRefusal(RunProgram("landscape", Files({"--max_distance_m=-1"})), 1, "expected a length");
+  ExpectRefusal(RunProgram("landscape", Files({"--threads=-2"})), 1, "--threads=-2");
+  ExpectRefusal(RunProgram("landscape", Files({"--kitti_root=x"})), 1, "expected one of them");
+  ExpectRefusal(RunProgram("landscape", {"--kitti_root=x", "--frame=0"}), 1, "no scan comes before it");
+  ExpectRefusal(RunProgram("landscape", {"--kitti_root=x"}), 1, "--frame=-1");
+  ExpectRefusal(RunProgram("register", Files({"--loss=hubert"})), 1, "none, huber");
+  ExpectRefusal(RunProgram("register", Files({"--loss_scale_m=0", "--loss=huber"})), 1, "positive");
+  ExpectRefusal(RunProgram("register", Files({"--reassociation=never"})), 1, "every_step");
+  ExpectRefusal(RunProgram("register", Files({"--metrics=symmetric,two_plane"})), 1, "one metric");
+  ExpectRefusal(RunProgram("register", Files({"--max_iterations=0"})), 1, "--max_iterations");
+  auto no_truth = Files({"--starts=5"});
+  no_truth.erase(no_truth.begin() + 2);
+  EXPECT_EQ(RunProgram("register", no_truth).code, 1);
+  no_truth.back() = "--samples=5";
+  EXPECT_EQ(RunProgram("landscape", no_truth).code, 1);
+  EXPECT_FALSE(std::filesystem::exists(Path("out/curves.csv")));
+}
+
+TEST_F(Apps, BrokenData) {
+  auto files = Files();
+  files[0] = "--source=" + Path("nothing.ply");
+  ExpectRefusal(RunProgram("landscape", files), 2, "nothing.ply: cannot be read");
+  folder_.Write("scaled.txt", "2 0 0 0 0 2 0 0 0 0 2 0 0 0 0 1");
+  files = Files({"--ground_truth=" + Path("scaled.txt")});
+  ExpectRefusal(RunProgram("landscape", files), 2, "scaled.txt: the matrix is not rigid");
+  folder_.Write("file", "");
+  ExpectRefusal(RunProgram("landscape", Files({"--out=" + Path("file")})), 2, "expected a folder");
+
+  ExpectRefusal(RunProgram("landscape", Kitti({"--sequence=77"})), 2, "sequences/77: no such folder");
+  ExpectRefusal(RunProgram("landscape", Kitti({"--frame=2"})), 2, "2 rows; expected a row for frame 2");
+  const std::string scan = "kitti/sequences/00/velodyne/000001.bin";
+  const std::string whole = ReadFile(Path(scan));
+  folder_.Write(scan, whole.substr(0, 1000));
+  ExpectRefusal(RunProgram("landscape", Kitti()), 2, "1000 bytes; expected a multiple of 16");
+  folder_.Write(scan, "");
+  ExpectRefusal(RunProgram("landscape", Kitti()), 2, "no usable point among 0");
+  folder_.Write(scan, whole);
+  folder_.Write("kitti/sequences/00/calib.txt", "P0: 1 0 0 0 0 1 0 0 0 0 1 0\n");
+  ExpectRefusal(RunProgram("landscape", Kitti()), 2, "no line begins with \"Tr:\"");
+  EXPECT_FALSE(std::filesystem::exists(Path("out/curves.csv")));
+}
+
+TEST_F(Apps, NanPointsAreDroppedAndCounted) {
+  PointCloud cloud = testing_support::Room(3000, 2);
+  cloud.x[5] = NAN;
+  cloud.x[6] = cloud.y[6] = cloud.z[6] = 0;
+  WriteBin("kitti/sequences/00/velodyne/000001.bin", cloud);
+  const Outcome outcome = RunProgram("landscape", Kitti());
+  EXPECT_EQ(outcome.code, 0) << outcome.err;
+  EXPECT_THAT(outcome.out, HasSubstr("2998 points (dropped: 1 not finite, 1 at the origin)"));
+}
+
+TEST_F(Apps, NoCorrespondenceLeft) {
+  ExpectRefusal(RunProgram("landscape", Files({"--max_distance_m=1e-9"})), 3,
+                "no correspondence is left for");
+  ExpectRefusal(RunProgram("register", Files({"--max_distance_m=1e-9"})), 3, "No pair of points is left");
+  EXPECT_FALSE(std::filesystem::exists(Path("out/T_target_source.txt")));
+}
+
+TEST(AppsRealData, LastCostOfRegisterIsTheLandscapesOn0095) {
+  ICPSCAPE_REQUIRE_KITTI(root);
+  const TemporaryFolder folder;
+  const std::string out = folder.path().string();
+  const std::vector<std::string> kitti = {"--kitti_root=" + root.string(), "--frame=95"};
+  for (const std::string metric : {"point_to_plane", "symmetric"}) {
+    auto arguments = kitti;
+    arguments.insert(arguments.end(), {"--metrics=" + metric, "--out=" + out});
+    ASSERT_EQ(RunProgram("register", arguments).code, 0);
+    const double cost = std::stod(ReadCsv(out + "/iterations.csv").back().at("cost"));
+    const std::string scans = root.string() + "/sequences/00/velodyne/0000";
+    ASSERT_EQ(RunProgram("landscape", {"--source=" + scans + "95.bin", "--target=" + scans + "94.bin",
+                                "--ground_truth=" + out + "/T_target_source.txt", "--u_min=0",
+                                "--u_max=1", "--samples=2", "--metrics=" + metric,
+                                "--out=" + out})
+                  .code,
+              0);
+    const double landscape = std::stod(ReadCsv(out + "/curves.csv").back().at("cost"));
+    EXPECT_NEAR(landscape, cost, 1e-12 * cost);
+  }
+}
+
+}  // namespace
+}  // namespace icpscape
