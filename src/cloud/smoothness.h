@@ -40,9 +40,11 @@ struct SmoothnessOptions {
 /// the first and last ring_points_per_side points of a ring, fewer than num_neighbors other points,
 /// none within the radius, or a point at the sensor itself.
 ///
-/// Ring windows do not wrap around: a ring's first and last points lie next to each other, but were
-/// measured one revolution apart, between which the vehicle has moved by up to a metre. Points of a
-/// ring are taken in the order of the cloud; dropped returns leave no gap in it.
+/// Ring windows do not wrap around: a ring's first and last points lie next to each other, but are
+/// the start and the end of a revolution, and no even spacing joins them. (On KITTI 00/15, whose
+/// seam is 9 degrees wide, wrapping makes 23 % of the 640 points at the seam edges by the printed
+/// rule, against 7.7 % of the others.) Points of a ring are taken in the order of the cloud;
+/// dropped returns leave no gap in it.
 ///
 /// Sums are taken in double in the order of the set (ring order, or nearest first), so that the
 /// result does not depend on `threads`. Throws UsageError for options out of range, InputError
