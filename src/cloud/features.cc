@@ -97,8 +97,8 @@ std::size_t Count(const std::vector<char>& mask) {
 
 void WarnIfFew(const char* what, std::size_t count) {
   if (count < kFewFeatures) {
-    LOG(WARNING) << count << " " << what << " points: fewer than " << kFewFeatures
-                 << ", the smoothness and its threshold hardly fit each other.";
+    LOG(WARNING) << count << " " << what << " points, fewer than " << kFewFeatures
+                 << ": the smoothness, its threshold or the caps leave little to match.";
   }
 }
 
