@@ -1,13 +1,28 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "src/landscape/path.h"
 
+#include <cmath>
+
 #include "src/common/error.h"
 #include "src/common/text.h"
 
 namespace icpscape {
+namespace {
+
+// b of the bicycle that comes closest to the motion; see Path.
+Vec6 BicycleTwist(const SE3d& motion) {
+  const double yaw = std::atan2(motion.R()(1, 0), motion.R()(0, 0));
+  const double chord = motion.t().x() * std::cos(yaw / 2) + motion.t().y() * std::sin(yaw / 2);
+  const double arc = chord / internal::SinOverAngle(yaw * yaw / 4);
+  Vec6 twist;
+  twist << 0, 0, yaw, arc, yaw * kSensorAheadOfRearAxle_m, 0;
+  return twist;
+}
+
+}  // namespace
 
 const std::vector<std::string>& PathKindNames() {
-  static const std::vector<std::string> names = {"lerp_slerp", "geodesic"};
+  static const std::vector<std::string> names = {"lerp_slerp", "geodesic", "bicycle"};
   return names;
 }
 
@@ -21,11 +36,22 @@ PathKind PathKindFromName(const std::string& name) {
 }
 
 Path::Path(const SE3d& T_0, const SE3d& T_1, PathKind kind)
-    : kind_(kind), T_0_(T_0), T_1_(T_1), twist_((T_0.Inverse() * T_1).Log()) {}
+    : kind_(kind), T_0_(T_0), T_1_(T_1), remainder_(Vec6::Zero()) {
+  const SE3d motion = T_0.Inverse() * T_1;
+  twist_ = kind == PathKind::kBicycle ? BicycleTwist(motion) : motion.Log();
+  if (kind == PathKind::kBicycle) {
+    remainder_ = (SE3d::Exp(twist_).Inverse() * motion).Log();
+  }
+}
 
 SE3d Path::Pose(double u) const {
-  if (kind_ == PathKind::kGeodesic) {
-    return T_0_ * SE3d::Exp(u * twist_);
+  switch (kind_) {
+    case PathKind::kGeodesic:
+      return T_0_ * SE3d::Exp(u * twist_);
+    case PathKind::kBicycle:
+      return T_0_ * SE3d::Exp(u * twist_) * SE3d::Exp(u * remainder_);
+    case PathKind::kLerpSlerp:
+      break;
   }
   Vec6 rotation = Vec6::Zero();
   rotation.head<3>() = u * twist_.head<3>();
@@ -37,6 +63,9 @@ Vec6 Path::BodyTwist(double u) const {
   if (kind_ == PathKind::kLerpSlerp) {
     // omega is constant; the translation's velocity is constant in the target frame.
     xi.tail<3>() = Pose(u).R().transpose() * (T_1_.t() - T_0_.t());
+  } else if (kind_ == PathKind::kBicycle) {
+    // The car's twist as felt behind the remainder, and the remainder's own.
+    xi = SE3d::Exp(-u * remainder_).Adjoint() * twist_ + remainder_;
   }
   return xi;
 }

@@ -15,14 +15,31 @@ enum class PathKind {
   kLerpSlerp,
   /// The geodesic of SE(3), motion with a constant body twist: T_u = T_0 Exp(u Log(T_0^-1 T_1)).
   kGeodesic,
+  /// A car with constant speed and steering [bicycle model, suggested in paper sec. 3.1]: the rear
+  /// axle's middle runs along an arc tangent to the heading. See Path.
+  kBicycle,
 };
 
-/// Names in the order of the enum: lerp_slerp, geodesic. Throws UsageError for others.
+/// How far the sensor sits in front of the rear axle, for kBicycle: in KITTI's official poses the
+/// point that turns without side slip lies 0.61 to 0.68 m behind the lidar (sequences 05 to 08).
+inline constexpr double kSensorAheadOfRearAxle_m = 0.65;
+
+/// Names in the order of the enum: lerp_slerp, geodesic, bicycle. Throws UsageError for others.
 PathKind PathKindFromName(const std::string& name);
 const std::vector<std::string>& PathKindNames();
 
 /// A path of poses T_u through T_0 (u = 0) and T_1 (u = 1), defined for every real u: outside
 /// [0, 1] it extrapolates. The shorter way round is taken; R_0^T R_1 must turn by less than pi.
+///
+/// The bicycle, in the sensor's frame at T_0 (x forward, y left, z up): with D = T_0^-1 T_1, psi
+/// its yaw, l the sensor's lead over the rear axle and s the length of the axle's arc, the sensor
+/// moves with the constant body twist
+///   b = [0, 0, psi; s, psi l, 0],   s = (D_x cos(psi/2) + D_y sin(psi/2)) (psi/2) / sin(psi/2),
+/// the axle's chord being along psi/2. What no such car can do (z, roll, pitch, side slip) is added
+/// behind it as a geodesic, so that T_1 is met exactly:
+///   T_u = T_0 Exp(u b) Exp(u e),   e = Log(Exp(b)^-1 D).
+/// For the motion of such a car e = 0, and the path is the geodesic. The height of the sensor over
+/// the axle changes nothing.
 class Path {
  public:
   Path(const SE3d& T_0, const SE3d& T_1, PathKind kind);
@@ -36,7 +53,8 @@ class Path {
   PathKind kind_;
   SE3d T_0_;
   SE3d T_1_;
-  Vec6 twist_;  // Log(T_0^-1 T_1)
+  Vec6 twist_;      // Log(T_0^-1 T_1); for the bicycle b.
+  Vec6 remainder_;  // For the bicycle e.
 };
 
 }  // namespace icpscape

@@ -1,0 +1,37 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#ifndef ICPSCAPE_SRC_FILTERING_OCTREE_CORRESPONDENCE_FILTER_H_
+#define ICPSCAPE_SRC_FILTERING_OCTREE_CORRESPONDENCE_FILTER_H_
+
+#include "src/cloud/point_cloud.h"
+#include "src/filtering/filtered_pair.h"
+
+namespace icpscape {
+
+struct OctreeFilterOptions {
+  /// The paper's: emergency braking at 10 m/s^2 puts the motion predicted from the frame before off
+  /// by 1/2 10 0.1^2 = 0.05 m within a revolution, less than a voxel [paper sec. 4.2].
+  double voxel_size_m = 0.1;
+};
+
+/// The Octree Correspondence Filter [paper sec. 2.7, Alg. 1]: both scans are brought into the
+/// target frame, the source by the estimate T_e, and the points of every voxel that only one of
+/// them occupies are dropped: dynamic objects and what one scan alone sees. What is left of the
+/// source is returned in its own frame, by selection, not moved there and back.
+///
+/// The algorithm's leaves are all it needs of its octrees, so the voxels are kept in a flat hash:
+/// linear in the number of points, whatever the number of dynamic objects. The lattice is fixed,
+/// its origin that of the target frame (an octree that adapts its box to the data gives each scan
+/// another): a point is in voxel floor(c / voxel_size_m) along each axis, c being the float
+/// coordinate and the quotient taken in double. Moved points are rounded to float first, as in
+/// PointCloud::Transformed. The braking argument holds for surfaces along the motion: of those
+/// across it, an offset of half a voxel moves half into the next one.
+///
+/// The filter keeps what agrees under T_e, so it favours T_e itself. Throws UsageError unless
+/// voxel_size_m is a length above 0, InputError for a point beyond 2^20 voxels from the origin.
+FilteredPair OctreeCorrespondenceFilter(const PointCloud& source, const PointCloud& target,
+                                        const SE3d& T_target_source_estimate,
+                                        const OctreeFilterOptions& options);
+
+}  // namespace icpscape
+
+#endif  // ICPSCAPE_SRC_FILTERING_OCTREE_CORRESPONDENCE_FILTER_H_

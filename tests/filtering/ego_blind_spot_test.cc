@@ -1,0 +1,84 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "src/filtering/ego_blind_spot.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "src/common/error.h"
+
+namespace icpscape {
+namespace {
+
+PointCloud Along(const std::vector<Vec3>& points) {
+  PointCloud cloud;
+  for (const Vec3& p : points) {
+    cloud.x.push_back(static_cast<float>(p.x()));
+    cloud.y.push_back(static_cast<float>(p.y()));
+    cloud.z.push_back(static_cast<float>(p.z()));
+    cloud.label.push_back(static_cast<std::int32_t>(cloud.label.size()));
+  }
+  return cloud;
+}
+
+TEST(ArtificialBlindSpot, IsACylinderWithItsBorder) {
+  const PointCloud cloud =
+      Along({{5, 0, 0}, {5.001, 0, 0}, {3, 4, 100}, {3, -4.01, -2}, {0, 0, -1.7}});
+  EXPECT_THAT(ArtificialBlindSpot(cloud, 5).label, testing::ElementsAre(1, 3));
+  EXPECT_THROW(ArtificialBlindSpot(cloud, 0), UsageError);
+  EXPECT_THROW(ArtificialBlindSpot(cloud, std::nan("")), UsageError);
+}
+
+TEST(EgoBlindSpotFilter, DropsWhatTheOtherSensorCannotSee) {
+  // The vehicle drives 2 m ahead and turns left by 90 degrees. In the target frame the source's
+  // sensor is at (2, 0); in the source frame the target's is at R^T (-t) = (0, 2).
+  Mat3 R;
+  R << 0, -1, 0, 1, 0, 0, 0, 0, 1;
+  const SE3d T(R, Vec3(2, 0, 0.3));
+  const PointCloud target = Along({{7, 0, 0}, {7.01, 0, 0}, {-2.99, 0, 0}, {-3.01, 0, 0}});
+  const PointCloud source =
+      Along({{0, 7, 0}, {0, 7.01, 0}, {0, -2.99, 0}, {-3.01, 0, 0}, {-5, 2, 9}});
+  const FilteredPair pair = EgoBlindSpotFilter(source, target, T, 5);
+  EXPECT_THAT(pair.keep_target, testing::ElementsAre(0, 1, 0, 1));
+  EXPECT_THAT(pair.keep_source, testing::ElementsAre(0, 1, 0, 0, 0));
+  EXPECT_THAT(pair.target.label, testing::ElementsAre(1, 3));
+  EXPECT_THAT(pair.source.label, testing::ElementsAre(1));
+  EXPECT_THROW(EgoBlindSpotFilter(source, target, T, -1), UsageError);
+}
+
+TEST(EgoBlindSpotFilter, WithoutMotionIsTheArtificialBlindSpot) {
+  std::vector<Vec3> points;
+  for (int x = -8; x <= 8; ++x) {
+    for (int y = -8; y <= 8; ++y) {
+      points.emplace_back(x, y, -1.7);
+    }
+  }
+  const PointCloud cloud = Along(points);
+  const FilteredPair pair = EgoBlindSpotFilter(cloud, cloud, SE3d(), kEgoBlindSpotRadius_m);
+  const PointCloud ring = ArtificialBlindSpot(cloud, kEgoBlindSpotRadius_m);
+  EXPECT_EQ(pair.source.label, ring.label);
+  EXPECT_EQ(pair.target.label, ring.label);
+  EXPECT_EQ(ring.size(), 17U * 17U - 81U);  // 81 lattice points lie within a circle of radius 5.
+}
+
+TEST(EgoBlindSpotFilter, LeavesTheSameGroundToBothScans) {
+  // Two scans of one flat ground, each blind within 5 m of itself: after the filter, exactly the
+  // points that both scans hold are left.
+  const SE3d T(Mat3::Identity(), Vec3(3, 0, 0));
+  std::vector<Vec3> ground_target, ground_source;
+  for (int x = -20; x <= 20; ++x) {
+    for (int y = -20; y <= 20; ++y) {
+      ground_target.emplace_back(x, y, -1.7);
+      ground_source.emplace_back(x - 3, y, -1.7);
+    }
+  }
+  const PointCloud target = ArtificialBlindSpot(Along(ground_target), 5);
+  const PointCloud source = ArtificialBlindSpot(Along(ground_source), 5);
+  EXPECT_NE(source.label, target.label);
+  const FilteredPair pair = EgoBlindSpotFilter(source, target, T, 5);
+  EXPECT_EQ(pair.source.label, pair.target.label);
+}
+
+}  // namespace
+}  // namespace icpscape
