@@ -16,6 +16,7 @@ struct PointToPlane {
   static constexpr char kSource[] = "Chen & Medioni 1992; paper sec. 2.2";
   static constexpr int kDim = 1;
   static constexpr unsigned kNeeds = kTargetNormal;
+  static constexpr Epsilon kEpsilon = Epsilon::kSquared;
 
   Vec3 p_source;
   Vec3 q_target;

@@ -16,6 +16,7 @@ struct PointToPoint {
   static constexpr char kSource[] = "Besl & McKay 1992; paper sec. 2.1";
   static constexpr int kDim = 3;
   static constexpr unsigned kNeeds = kPointsOnly;
+  static constexpr Epsilon kEpsilon = Epsilon::kSquared;
 
   Vec3 p_source;
   Vec3 q_target;

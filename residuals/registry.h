@@ -5,6 +5,8 @@
 #include <string_view>
 #include <type_traits>
 
+#include "residuals/edge_to_line.h"
+#include "residuals/planar_to_patch.h"
 #include "residuals/point_to_plane.h"
 #include "residuals/point_to_point.h"
 #include "residuals/symmetric.h"
@@ -17,7 +19,8 @@ struct MetricList {};
 /// All metrics. A new metric adds its header above and its name here; flags, tables, landscapes and
 /// solvers follow from this list.
 using AllMetrics =
-    MetricList<PointToPoint, PointToPlane, Symmetric, SymmetricRotated, SymmetricSplit, TwoPlane>;
+    MetricList<PointToPoint, PointToPlane, Symmetric, SymmetricRotated, SymmetricSplit, TwoPlane,
+               EdgeToLine, EdgeToLineDistance, PlanarToPatch, PlanarToPlane>;
 
 /// Stands for a metric type in a call: decltype(tag)::Metric.
 template <class M>

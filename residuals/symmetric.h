@@ -30,6 +30,7 @@ struct Symmetric {
   static constexpr char kSource[] = "paper sec. 2.3, after Rusinkiewicz 2019";
   static constexpr int kDim = 1;
   static constexpr unsigned kNeeds = kSourceNormal | kTargetNormal;
+  static constexpr Epsilon kEpsilon = Epsilon::kSquared;
 
   Vec3 p_source;
   Vec3 q_target;
@@ -64,6 +65,7 @@ struct SymmetricRotated {
   static constexpr char kSource[] = "Rusinkiewicz 2019, rotated normals";
   static constexpr int kDim = 1;
   static constexpr unsigned kNeeds = kSourceNormal | kTargetNormal;
+  static constexpr Epsilon kEpsilon = Epsilon::kSquared;
 
   Vec3 p_source;
   Vec3 q_target;
@@ -105,6 +107,7 @@ struct SymmetricSplit {
   static constexpr char kSource[] = "Rusinkiewicz 2019, fixed normals";
   static constexpr int kDim = 1;
   static constexpr unsigned kNeeds = kSourceNormal | kTargetNormal;
+  static constexpr Epsilon kEpsilon = Epsilon::kSquared;
 
   Vec3 p_source;
   Vec3 q_target;
@@ -156,6 +159,7 @@ struct TwoPlane {
   static constexpr char kSource[] = "compared with in Rusinkiewicz 2019";
   static constexpr int kDim = 2;
   static constexpr unsigned kNeeds = kSourceNormal | kTargetNormal;
+  static constexpr Epsilon kEpsilon = Epsilon::kSquared;
 
   Vec3 p_source;
   Vec3 q_target;

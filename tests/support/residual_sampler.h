@@ -37,6 +37,12 @@ class ResidualSampler {
     c.q_target = T * c.p_source + Point(distance_m);
     c.n_source = UnitVector();
     c.n_target = UnitVector();
+    // Line and patch pass through the match: at distance 0 every metric is at a perfect fit.
+    c.d_line = UnitVector();
+    c.a_line = c.q_target;
+    c.n_patch = UnitVector();
+    c.q_patch = c.q_target;
+    c.area_patch = 0.25;
     return c;
   }
 
@@ -44,7 +50,7 @@ class ResidualSampler {
   std::mt19937 engine_;
 };
 
-/// The pair seen from other frames: p' = G_source p, q' = G_target q, normals with them.
+/// The pair seen from other frames: p' = G_source p, q' = G_target q, directions with them.
 inline Correspondence ChangeFrames(const Correspondence& c, const SE3d& G_source,
                                    const SE3d& G_target) {
   Correspondence out = c;
@@ -52,6 +58,10 @@ inline Correspondence ChangeFrames(const Correspondence& c, const SE3d& G_source
   out.n_source = G_source.R() * c.n_source;
   out.q_target = G_target * c.q_target;
   out.n_target = G_target.R() * c.n_target;
+  out.a_line = G_target * c.a_line;
+  out.d_line = G_target.R() * c.d_line;
+  out.q_patch = G_target * c.q_patch;
+  out.n_patch = G_target.R() * c.n_patch;
   return out;
 }
 
