@@ -136,8 +136,8 @@ class Wall {
 
 }  // namespace
 
-void AddHouse(const House& house, const SE3d& T_mesh_house, std::uint16_t instance,
-              Random* random, Mesh* mesh) {
+void AddHouse(const House& house, const SE3d& T_mesh_house, std::uint16_t instance, Random* random,
+              Mesh* mesh) {
   const double w = house.width_m;
   const double d = house.depth_m;
   const double top = house.floors * kFloorM;
@@ -150,8 +150,8 @@ void AddHouse(const House& house, const SE3d& T_mesh_house, std::uint16_t instan
   const Vec3 ridge_a = T_mesh_house * Vec3(-0.3, 0.5 * d, top + 0.35 * d);
   const Vec3 ridge_b = T_mesh_house * Vec3(w + 0.3, 0.5 * d, top + 0.35 * d);
   for (const double y : {-0.4, d + 0.4}) {
-    mesh->AddQuad(T_mesh_house * Vec3(-0.3, y, top - 0.25), T_mesh_house * Vec3(w + 0.3, y, top - 0.25),
-                  ridge_b, ridge_a, roof);
+    mesh->AddQuad(T_mesh_house * Vec3(-0.3, y, top - 0.25),
+                  T_mesh_house * Vec3(w + 0.3, y, top - 0.25), ridge_b, ridge_a, roof);
   }
   for (const double x : {0., w}) {
     mesh->AddTriangle(T_mesh_house * Vec3(x, 0, top), T_mesh_house * Vec3(x, d, top),

@@ -19,8 +19,8 @@ struct House {
 
 /// Walls with plinth, windows in reveals, doors in recesses, bay windows, balconies, downpipes and
 /// a gabled roof. Floors are 3 m high.
-void AddHouse(const House& house, const SE3d& T_mesh_house, std::uint16_t instance,
-              Random* random, Mesh* mesh);
+void AddHouse(const House& house, const SE3d& T_mesh_house, std::uint16_t instance, Random* random,
+              Mesh* mesh);
 
 }  // namespace icpscape
 

@@ -130,8 +130,8 @@ void AddFurniture(Random* random, World* world) {
     for (double x = -kHalfLengthM + random->Uniform(0, 60); x < kHalfLengthM;
          x += random->Uniform(50, 110)) {
       const double y = edge + out * 1.6;
-      AddSign(Vec3(x, y, VergeHeight(y)), out < 0 ? M_PI : 0, random->Bits(),
-              world->NextInstance(), &world->standing);
+      AddSign(Vec3(x, y, VergeHeight(y)), out < 0 ? M_PI : 0, random->Bits(), world->NextInstance(),
+              &world->standing);
     }
   }
 }
@@ -152,10 +152,10 @@ World MakeHighway(std::uint64_t key) {
 void AddTraffic(double speed_m_s, std::uint64_t key, World* world) {
   Random random(MixKeys(key, 4));
   const auto put = [&](Mesh mesh, double x, double y, double speed) {
-    const Mat3 roll = Eigen::AngleAxisd(std::atan(kHighwayCrossfall), Vec3::UnitX())
-                          .toRotationMatrix();
-    world->moving.push_back({std::move(mesh), SE3d(roll, Vec3(x, y, OurHeight(y))),
-                             Vec3(speed, 0, 0)});
+    const Mat3 roll =
+        Eigen::AngleAxisd(std::atan(kHighwayCrossfall), Vec3::UnitX()).toRotationMatrix();
+    world->moving.push_back(
+        {std::move(mesh), SE3d(roll, Vec3(x, y, OurHeight(y))), Vec3(speed, 0, 0)});
   };
   // The car's nose is 3 m ahead of the lidar's: half way past.
   put(MakeCar(Label::kMovingCar, world->NextInstance(), &random), 3.0, kLaneM, speed_m_s + 6);

@@ -55,8 +55,8 @@ void LidarOptions::Check() const {
                        ".");
     }
   };
-  require(azimuth_step_deg >= 0.01 && azimuth_step_deg <= 10, "azimuth_step_deg",
-          azimuth_step_deg, "0.01 to 10 degrees");
+  require(azimuth_step_deg >= 0.01 && azimuth_step_deg <= 10, "azimuth_step_deg", azimuth_step_deg,
+          "0.01 to 10 degrees");
   require(range_noise_m >= 0 && range_noise_m <= 1, "range_noise_m", range_noise_m, "0 to 1 m");
   require(ring_bias_m >= 0 && ring_bias_m <= 1, "ring_bias_m", ring_bias_m, "0 to 1 m");
   require(dropout >= 0 && dropout <= 0.9, "dropout", dropout, "0 to 0.9");
@@ -81,9 +81,9 @@ int LastRingPastCar(double azimuth_rad) {
   return kLastRing[std::min<std::size_t>(static_cast<std::size_t>(degrees / 5), 35)];
 }
 
-PointCloud ScanWorld(const RayCaster& standing, const RayCaster* moving,
-                     const SE3d& T_world_lidar, const LidarOptions& options,
-                     std::uint64_t sensor_key, std::uint64_t key, int threads) {
+PointCloud ScanWorld(const RayCaster& standing, const RayCaster* moving, const SE3d& T_world_lidar,
+                     const LidarOptions& options, std::uint64_t sensor_key, std::uint64_t key,
+                     int threads) {
   const int steps = options.AzimuthSteps();
   std::array<Ring, kLidarRings> rings;
   const auto scan_ring = [&](int ring_index) {

@@ -48,9 +48,9 @@ void AddBox(const SE3d& T_mesh_box, const Vec3& low, const Vec3& high, const Sur
             Mesh* mesh) {
   Vec3 corner[8];
   for (unsigned i = 0; i < 8; ++i) {
-    corner[i] = T_mesh_box * Vec3((i & 1U) != 0 ? high.x() : low.x(),
-                                  (i & 2U) != 0 ? high.y() : low.y(),
-                                  (i & 4U) != 0 ? high.z() : low.z());
+    corner[i] =
+        T_mesh_box * Vec3((i & 1U) != 0 ? high.x() : low.x(), (i & 2U) != 0 ? high.y() : low.y(),
+                          (i & 4U) != 0 ? high.z() : low.z());
   }
   constexpr int kFaces[6][4] = {{0, 1, 3, 2}, {4, 5, 7, 6}, {0, 1, 5, 4},
                                 {2, 3, 7, 6}, {0, 2, 6, 4}, {1, 3, 7, 5}};

@@ -19,9 +19,7 @@ struct Mesh {
   std::vector<Surface> surfaces;  ///< One per triangle.
 
   std::size_t size() const { return triangles.size(); }
-  Vec3 Vertex(std::uint32_t i) const {
-    return {vertices[i][0], vertices[i][1], vertices[i][2]};
-  }
+  Vec3 Vertex(std::uint32_t i) const { return {vertices[i][0], vertices[i][1], vertices[i][2]}; }
 
   void AddTriangle(const Vec3& a, const Vec3& b, const Vec3& c, const Surface& surface);
   /// The corners in order around the quadrilateral.

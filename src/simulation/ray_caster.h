@@ -19,8 +19,8 @@ struct RayHit {
 /// First hits of rays with a mesh, through Embree. Safe to use from many threads at once.
 ///
 /// The tree is built by one thread with SSE2 code alone, so that a mesh gives the same hits on
-/// every machine. While a caster lives, Embree holds oneTBB to one thread in the whole process: cast
-/// from threads of your own, and keep casters short-lived.
+/// every machine. While a caster lives, Embree holds oneTBB to one thread in the whole process:
+/// cast from threads of your own, and keep casters short-lived.
 class RayCaster {
  public:
   explicit RayCaster(Mesh mesh);

@@ -27,8 +27,8 @@ void AddLamp(const Vec3& foot, double yaw_rad, std::uint16_t instance, Mesh* mes
 void AddSign(const Vec3& foot, double yaw_rad, std::uint64_t key, std::uint16_t instance,
              Mesh* mesh) {
   const Surface face{Label::kTrafficSign, Material::kSignFace, instance};
-  AddFrustum(foot, foot + Vec3(0, 0, 2.9), 0.03, 0.03, 8, {Label::kPole, Material::kSteel, instance},
-             mesh);
+  AddFrustum(foot, foot + Vec3(0, 0, 2.9), 0.03, 0.03, 8,
+             {Label::kPole, Material::kSteel, instance}, mesh);
   const SE3d T = Placement(foot.x(), foot.y(), foot.z() + 2.5, yaw_rad);
   const Vec3 front = T * Vec3(0.04, 0, 0);
   switch (key % 3) {
@@ -57,8 +57,7 @@ void AddPicketFence(const Vec3& a, const Vec3& b, double height_m, std::uint16_t
   }
 }
 
-void AddLowWall(const Vec3& a, const Vec3& b, double height_m, std::uint16_t instance,
-                Mesh* mesh) {
+void AddLowWall(const Vec3& a, const Vec3& b, double height_m, std::uint16_t instance, Mesh* mesh) {
   const Surface stone{Label::kFence, Material::kConcrete, instance};
   const SE3d T = Along(a, b);
   const double length = (b - a).norm();
@@ -74,7 +73,7 @@ void AddGuardRail(const Vec3& a, const Vec3& b, std::uint16_t instance, Mesh* me
   const SE3d T = Along(a, b);
   const double length = (b - a).norm();
   // The beam's section: y outwards from the post, z up from the lower edge.
-  constexpr double kSection[8][2] = {{0, 0},        {0.025, 0.02}, {0.08, 0.06}, {0.08, 0.11},
+  constexpr double kSection[8][2] = {{0, 0},         {0.025, 0.02}, {0.08, 0.06}, {0.08, 0.11},
                                      {0.025, 0.155}, {0.08, 0.20},  {0.08, 0.25}, {0, 0.31}};
   constexpr double kLowerEdgeM = 0.44;
   AddPatch(
@@ -91,8 +90,8 @@ void AddGuardRail(const Vec3& a, const Vec3& b, std::uint16_t instance, Mesh* me
 }
 
 void AddDelineator(const Vec3& foot, std::uint16_t instance, Mesh* mesh) {
-  AddFrustum(foot, foot + Vec3(0, 0, 1.0), 0.07, 0.06, 8, {Label::kPole, Material::kSignFace, instance},
-             mesh);
+  AddFrustum(foot, foot + Vec3(0, 0, 1.0), 0.07, 0.06, 8,
+             {Label::kPole, Material::kSignFace, instance}, mesh);
 }
 
 }  // namespace icpscape

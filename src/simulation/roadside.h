@@ -21,8 +21,7 @@ void AddPicketFence(const Vec3& a, const Vec3& b, double height_m, std::uint16_t
                     Mesh* mesh);
 
 /// A masonry wall, 25 cm thick, with a coping and a pillar at each end.
-void AddLowWall(const Vec3& a, const Vec3& b, double height_m, std::uint16_t instance,
-                Mesh* mesh);
+void AddLowWall(const Vec3& a, const Vec3& b, double height_m, std::uint16_t instance, Mesh* mesh);
 
 /// A steel guard rail from a to b, both on the ground: the W-shaped beam, 0.31 m high with its top
 /// at 0.75 m, on posts every 2 m (RAL-RG 620, profile B). It faces left of the direction from a

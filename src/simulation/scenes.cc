@@ -18,8 +18,9 @@ constexpr double kRadians = M_PI / 180;
 
 /// How KITTI's lidar moved: rotation vector (rad) and translation (m) of T(N-1 <- N) and of
 /// T(N-2 <- N-1), T(i <- j) = Tr^-1 P_i^-1 P_j Tr with the official poses and calibration
-/// [Geiger et al. 2012]. And how it sat on its car: `pitch` (nose down) is the slope of the path from
-/// frame N-6 to N+4 in the lidar's own frame, `heading` the direction of that path (to the left).
+/// [Geiger et al. 2012]. And how it sat on its car: `pitch` (nose down) is the slope of the path
+/// from frame N-6 to N+4 in the lidar's own frame, `heading` the direction of that path (to the
+/// left).
 struct Motion {
   const char* scene;
   const char* paper_frame;
@@ -29,30 +30,38 @@ struct Motion {
 };
 
 constexpr Motion kMotions[] = {
-    {"straight_street", "00/1500",
+    {"straight_street",
+     "00/1500",
      {5.135691584413753e-05, 0.0001940715900627963, 0.0008241225028515839},
      {1.31435322, 0.02064646, -0.0101395},
      {0.0002763179303600622, -0.0009216045695643616, 0.0007766962706623557},
      {1.31144424, 0.01176759, 0.00245294},
-     0.516, 0.436},
-    {"right_turn", "00/100",
+     0.516,
+     0.436},
+    {"right_turn",
+     "00/100",
      {-0.00033035999732405403, 0.0005375544450870719, -0.04119965966768844},
      {0.43751704, -0.02845005, 0.00777175},
      {-6.93575156252691e-05, 0.0013497687745472468, -0.036472481204374026},
      {0.43670674, -0.02677174, 0.00974547},
-     1.450, -3.473},
-    {"highway", "01/320",
+     1.450,
+     -3.473},
+    {"highway",
+     "01/320",
      {-0.0007655871480637818, -0.0002557897125887779, 0.0008469325497808804},
      {2.61830738, -0.00765485, 0.03059189},
      {0.00041233150736038677, -0.001408926862765835, 0.0007297762340775665},
      {2.68757836, -0.01061027, 0.03338853},
-     0.636, -0.211},
-    {"highway_overtaking", "01/420",
+     0.636,
+     -0.211},
+    {"highway_overtaking",
+     "01/420",
      {0.00034436125495773966, 0.0016233225635005175, -0.0006630403986544897},
      {2.63806956, -0.0166116, 0.02556612},
      {0.0007251608998821437, 9.755736202462588e-05, -0.0006355822312926646},
      {2.64156083, -0.01707594, 0.02867882},
-     0.607, -0.301},
+     0.607,
+     -0.301},
 };
 
 const Motion& FindMotion(const std::string& scene) {
@@ -61,8 +70,8 @@ const Motion& FindMotion(const std::string& scene) {
       return motion;
     }
   }
-  throw UsageError("--scene=" + scene + ": no such scene; expected one of " +
-                   Join(SceneNames()) + ".");
+  throw UsageError("--scene=" + scene + ": no such scene; expected one of " + Join(SceneNames()) +
+                   ".");
 }
 
 SE3d FromVectors(const double (&rotation)[3], const double (&translation)[3]) {
@@ -103,15 +112,14 @@ StreetNetwork RightTurn(std::uint64_t key) {
     const Vec2 centre = through + kLaneOffsetM * Vec2(-along.y(), along.x());
     return Street{{centre - back * along, centre + on * along}};
   };
-  return StreetNetwork({street(Vec2(-13.9, -3.1), 13.9, 90, 110),
-                        street(Vec2(10.4, -23.5), -75.6, 100, 90)},
-                       key);
+  return StreetNetwork(
+      {street(Vec2(-13.9, -3.1), 13.9, 90, 110), street(Vec2(10.4, -23.5), -75.6, 100, 90)}, key);
 }
 
 /// The path of 00/100 from 25 frames before to 55 after, every 10th, in the frame of N - 1 (m).
 std::vector<Vec2> RightTurnRoute() {
-  return {{-13.9, -3.1}, {-7.1, -1.3}, {-1.8, -0.1}, {0.4, 0.0}, {2.4, -0.4}, {5.3, -2.8},
-          {6.9, -6.4},   {8.0, -11.2}, {9.2, -17.7}, {11.0, -25.5}};
+  return {{-13.9, -3.1}, {-7.1, -1.3}, {-1.8, -0.1}, {0.4, 0.0},   {2.4, -0.4},
+          {5.3, -2.8},   {6.9, -6.4},  {8.0, -11.2}, {9.2, -17.7}, {11.0, -25.5}};
 }
 
 }  // namespace
@@ -155,8 +163,8 @@ Scene MakeScene(const std::string& name, std::uint64_t seed) {
   return scene;
 }
 
-SimulatedPair SimulatePair(const std::string& name, std::uint64_t seed,
-                           const LidarOptions& options, int threads) {
+SimulatedPair SimulatePair(const std::string& name, std::uint64_t seed, const LidarOptions& options,
+                           int threads) {
   options.Check();
   Scene scene = MakeScene(name, seed);
   SimulatedPair pair;

@@ -13,8 +13,8 @@
 
 namespace icpscape {
 
-/// The paper's four scenes, as worlds for the simulated lidar: straight_street, right_turn, highway,
-/// highway_overtaking. The lidar moves as KITTI's did at the paper's frames.
+/// The paper's four scenes, as worlds for the simulated lidar: straight_street, right_turn,
+/// highway, highway_overtaking. The lidar moves as KITTI's did at the paper's frames.
 std::vector<std::string> SceneNames();
 
 /// Throws UsageError naming the scenes there are.

@@ -16,11 +16,12 @@ LidarOptions Checked(const LidarOptions& options) {
 }  // namespace
 
 Simulator::Simulator(World world, const LidarOptions& options, std::uint64_t seed)
-    : world_(std::move(world)), options_(Checked(options)), seed_(seed),
+    : world_(std::move(world)),
+      options_(Checked(options)),
+      seed_(seed),
       standing_(std::move(world_.standing)) {}
 
-PointCloud Simulator::Scan(const SE3d& T_world_lidar, double time_s, int index,
-                           int threads) const {
+PointCloud Simulator::Scan(const SE3d& T_world_lidar, double time_s, int index, int threads) const {
   std::optional<RayCaster> moving;
   if (!world_.moving.empty()) {
     moving.emplace(world_.MovingAt(time_s));

@@ -84,7 +84,8 @@ void StreetNetwork::AddStreet(std::size_t street, Mesh* mesh) const {
           const Vec2 p = at(i, offset(j));
           return {p.x(), p.y(), height(p, j)};
         },
-        surface, mesh, [&](int i, int j) {
+        surface, mesh,
+        [&](int i, int j) {
           const Vec2 p = 0.5 * (at(i, offset(j)) + at(i + 1, offset(j + 1)));
           return DistanceToKerb(p, street) < keep_off_m;
         });

@@ -15,7 +15,7 @@ using Vec2 = Eigen::Vector2d;
 /// A residential street: two lanes of 2.75 m, a parking strip of 2 m and a pavement on either side
 /// (RASt 06, the German guideline for urban streets).
 struct Street {
-  std::vector<Vec2> centre;   ///< Polyline, m; bends of less than about 25 degrees.
+  std::vector<Vec2> centre;    ///< Polyline, m; bends of less than about 25 degrees.
   double half_width_m = 4.75;  ///< Kerb to centre.
   double pavement_m = 2.2;
 };

@@ -13,8 +13,8 @@
 namespace icpscape {
 namespace {
 
-constexpr double kPavementM = 0.12;     // Height of pavements,
-constexpr double kGardenM = 0.18;       // and of gardens.
+constexpr double kPavementM = 0.12;       // Height of pavements,
+constexpr double kGardenM = 0.18;         // and of gardens.
 constexpr double kRouteClearanceM = 1.5;  // Half the car's width (0.91 m) and a margin.
 
 // The rectangle of a house on the ground.
@@ -169,8 +169,8 @@ class TownBuilder {
       AddBush(foot, random->Uniform(0.3, 0.7), world_.NextInstance(), random, &world_.standing);
     }
     if (setback > 3.5 && random->Chance(0.4)) {
-      AddTree(T * Vec3(random->Uniform(2, width - 2), -0.5 * setback, 0.06),
-              random->Uniform(5, 8), world_.NextInstance(), random, &world_.standing);
+      AddTree(T * Vec3(random->Uniform(2, width - 2), -0.5 * setback, 0.06), random->Uniform(5, 8),
+              world_.NextInstance(), random, &world_.standing);
     }
   }
 
@@ -207,8 +207,7 @@ class TownBuilder {
     const Street& s = network_.streets()[street];
     const std::vector<StreetSample> samples = network_.Sample(street, 1);
     // Bays of 5.5 to 6.5 m, two of three taken, none near a crossing (5 m, StVO section 12).
-    for (double along = random->Uniform(2, 6);
-         along + 2 < static_cast<double>(samples.size()) - 1;
+    for (double along = random->Uniform(2, 6); along + 2 < static_cast<double>(samples.size()) - 1;
          along += random->Uniform(5.5, 6.5)) {
       const Place place = Beside(samples[static_cast<std::size_t>(along)], side,
                                  s.half_width_m - 1.05 + random->Uniform(-0.1, 0.1));
@@ -238,8 +237,8 @@ class TownBuilder {
         continue;
       }
       const Vec3 foot = At(kerb.position, kPavementM);
-      const bool lamp = static_cast<int>((i + lamp_phase) / 30) !=
-                        static_cast<int>((i - 1 + lamp_phase) / 30);
+      const bool lamp =
+          static_cast<int>((i + lamp_phase) / 30) != static_cast<int>((i - 1 + lamp_phase) / 30);
       if (lamp && side > 0) {
         AddLamp(foot, kerb.yaw - M_PI / 2, world_.NextInstance(), &world_.standing);
       } else if (crossing < 2.5 && crossing > 1.5) {

@@ -174,8 +174,8 @@ Mesh MakeLorry(Label label, std::uint16_t instance) {
   // Side guards.
   for (const double side : {-1., 1.}) {
     for (const double z : {0.55, 0.85}) {
-      AddBox(here, Vec3(-2.9, side * 1.22 - 0.02, z - 0.06), Vec3(3.2, side * 1.22 + 0.02, z + 0.06),
-             steel, &mesh);
+      AddBox(here, Vec3(-2.9, side * 1.22 - 0.02, z - 0.06),
+             Vec3(3.2, side * 1.22 + 0.02, z + 0.06), steel, &mesh);
     }
   }
   for (const double x : {6.95, 3.85, -3.6, -4.91, -6.22}) {

@@ -31,9 +31,8 @@ struct World {
   Mesh MovingAt(double time_s) const {
     Mesh mesh;
     for (const MovingObject& object : moving) {
-      mesh.Append(object.mesh,
-                  SE3d(Mat3::Identity(), time_s * object.velocity_world_m_s) *
-                      object.T_world_object);
+      mesh.Append(object.mesh, SE3d(Mat3::Identity(), time_s * object.velocity_world_m_s) *
+                                   object.T_world_object);
     }
     return mesh;
   }
