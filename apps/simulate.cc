@@ -11,6 +11,7 @@
 #include "src/common/text.h"
 #include "src/io/kitti.h"
 #include "src/io/manifest.h"
+#include "src/io/sha256.h"
 #include "src/simulation/dataset.h"
 #include "src/simulation/drive.h"
 #include "src/simulation/random.h"
@@ -57,12 +58,14 @@ FrameRange FramesFromFlags() {
   return range;
 }
 
-// All that a scan depends on besides its index.
+// All that a scan depends on besides its index. The program itself belongs to it: while it is being
+// developed, its version does not tell one build from another.
 std::string Parameters(const std::string& what) {
   const LidarOptions lidar = LidarFromFlags();
-  return Version() + "; " + what + "; seed " + std::to_string(FLAGS_seed) + "; azimuth_step_deg " +
-         Number(lidar.azimuth_step_deg) + "; range_noise_m " + Number(lidar.range_noise_m) +
-         "; ring_bias_m " + Number(lidar.ring_bias_m) + "; dropout " + Number(lidar.dropout);
+  return Version() + "; program " + Sha256("/proc/self/exe") + "; " + what + "; seed " +
+         std::to_string(FLAGS_seed) + "; azimuth_step_deg " + Number(lidar.azimuth_step_deg) +
+         "; range_noise_m " + Number(lidar.range_noise_m) + "; ring_bias_m " +
+         Number(lidar.ring_bias_m) + "; dropout " + Number(lidar.dropout);
 }
 
 int Threads() { return FLAGS_threads > 0 ? FLAGS_threads : HardwareThreads(); }

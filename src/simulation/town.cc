@@ -65,6 +65,7 @@ class TownBuilder {
       for (const int side : {-1, 1}) {
         Random random(MixKeys(key_, 2, street, side));
         ParkCars(street, side, &random);
+        CloseBackGardens(street, side, &random);
         Furnish(street, side, &random);
       }
     }
@@ -121,11 +122,11 @@ class TownBuilder {
     const std::vector<StreetSample> samples = network_.Sample(street, 1);
     const Street& s = network_.streets()[street];
     const double front = s.half_width_m + s.pavement_m;
-    double setback = random.Uniform(0, 4);
+    double setback = random.Uniform(1, 6);
     const int count = static_cast<int>(samples.size());
     for (int i = 0; i < count;) {
       if (random.Chance(0.3)) {
-        setback = random.Chance(0.3) ? 0.15 : random.Uniform(1.5, 5);
+        setback = random.Chance(0.2) ? 0.15 : random.Uniform(2.5, 8);
       }
       House house;
       house.width_m = random.Uniform(9, 18);
@@ -162,13 +163,13 @@ class TownBuilder {
     const double gate = random->Uniform(0.3, 0.7) * width;
     AddBoundary(T, {0.1, y}, {gate - 0.6, y}, random);
     AddBoundary(T, {gate + 0.6, y}, {width - 0.1, y}, random);
-    const int bushes = random->Index(4);
+    const int bushes = random->Index(1 + static_cast<int>(width * setback / 5));
     for (int i = 0; i < bushes && setback > 2; ++i) {
       const Vec3 foot = T * Vec3(random->Uniform(0.8, width - 0.8),
                                  -random->Uniform(0.6, setback - 1), kGardenM - kPavementM);
-      AddBush(foot, random->Uniform(0.3, 0.7), world_.NextInstance(), random, &world_.standing);
+      AddBush(foot, random->Uniform(0.3, 0.9), world_.NextInstance(), random, &world_.standing);
     }
-    if (setback > 3.5 && random->Chance(0.4)) {
+    if (setback > 3.5 && random->Chance(0.7)) {
       AddTree(T * Vec3(random->Uniform(2, width - 2), -0.5 * setback, 0.06), random->Uniform(5, 8),
               world_.NextInstance(), random, &world_.standing);
     }
@@ -184,13 +185,45 @@ class TownBuilder {
     }
     const std::uint16_t instance = world_.NextInstance();
     const double kind = random->Uniform();
-    if (kind < 0.45) {
+    if (kind < 0.55) {
       AddHedge(from, to, 0.5, random->Uniform(0.8, 1.7), instance, random->Bits(),
                &world_.standing);
-    } else if (kind < 0.75) {
+    } else if (kind < 0.8) {
       AddPicketFence(from, to, random->Uniform(0.9, 1.3), instance, &world_.standing);
     } else {
       AddLowWall(from, to, random->Uniform(0.4, 1.0), instance, &world_.standing);
+    }
+  }
+
+  // Where the gardens of two streets meet: hedges, fences and sheds between trees. It bounds what
+  // is seen past the houses.
+  void CloseBackGardens(std::size_t street, int side, Random* random) {
+    const Street& s = network_.streets()[street];
+    const std::vector<StreetSample> samples = network_.Sample(street, 1);
+    for (std::size_t i = 0; i + 12 < samples.size(); i += 11) {
+      const double offset = s.half_width_m + s.pavement_m + random->Uniform(18, 26);
+      const Place from = Beside(samples[i], side, offset);
+      const Place to = Beside(samples[i + 11], side, offset);
+      const Vec2 middle = 0.5 * (from.position + to.position);
+      const auto clear = [&](const Vec2& p) {
+        return !InHouse(p, 0.5) && network_.DistanceToKerb(p) > 4;
+      };
+      if (!clear(from.position) || !clear(to.position) || !clear(middle)) {
+        continue;
+      }
+      const std::uint16_t instance = world_.NextInstance();
+      if (random->Chance(0.25)) {  // A shed or a garage.
+        const SE3d T = Placement(middle.x(), middle.y(), kGardenM, from.yaw);
+        AddBox(T, Vec3(-2, -1.5, 0), Vec3(2, 1.5, 2.4),
+               {Label::kBuilding, Material::kWood, instance}, &world_.standing);
+      }
+      AddHedge(At(from.position, kGardenM), At(to.position, kGardenM), 0.8,
+               random->Uniform(1.4, 2.6), world_.NextInstance(), random->Bits(), &world_.standing);
+      for (const double t : {random->Uniform(0, 0.4), random->Uniform(0.6, 1)}) {
+        const Vec2 foot = from.position + t * (to.position - from.position);
+        AddTree(At(foot, kGardenM), random->Uniform(5, 11), world_.NextInstance(), random,
+                &world_.standing);
+      }
     }
   }
 
@@ -206,13 +239,13 @@ class TownBuilder {
   void ParkCars(std::size_t street, int side, Random* random) {
     const Street& s = network_.streets()[street];
     const std::vector<StreetSample> samples = network_.Sample(street, 1);
-    // Bays of 5.5 to 6.5 m, two of three taken, none near a crossing (5 m, StVO section 12).
+    // Bays of 5.5 to 6.5 m, half of them taken, none near a crossing (5 m, StVO section 12).
     for (double along = random->Uniform(2, 6); along + 2 < static_cast<double>(samples.size()) - 1;
          along += random->Uniform(5.5, 6.5)) {
       const Place place = Beside(samples[static_cast<std::size_t>(along)], side,
                                  s.half_width_m - 1.05 + random->Uniform(-0.1, 0.1));
       const double yaw = place.yaw + M_PI + random->Uniform(-0.02, 0.02);
-      if (!random->Chance(0.65) || network_.DistanceToKerb(place.position, street) < 7.5 ||
+      if (!random->Chance(0.5) || network_.DistanceToKerb(place.position, street) < 7.5 ||
           !ClearOfRoute(place.position, 0.91)) {
         continue;
       }
@@ -254,7 +287,7 @@ class TownBuilder {
                Vec3(-0.3, -0.3, 0), Vec3(0.3, 0.3, 1.07),
                {Label::kOtherObject, Material::kWood, world_.NextInstance()}, &world_.standing);
       }
-      if (random->Chance(1 / 18.)) {
+      if (random->Chance(1 / 12.)) {
         const Place garden = Beside(sample, side, s.half_width_m + random->Uniform(6, 20));
         if (!InHouse(garden.position, 1.5) && network_.DistanceToKerb(garden.position) > 4) {
           AddTree(At(garden.position, kGardenM), random->Uniform(5, 11), world_.NextInstance(),

@@ -86,7 +86,7 @@ void AddHedge(const Vec3& a, const Vec3& b, double thickness_m, double height_m,
       side = -0.5;
       z = height_m * (rows - i) / up;
     }
-    const double rough = 0.06 * LatticeNoise(i * 0.9, j * 0.9, key);
+    const double rough = 0.09 * LatticeNoise(i * 0.9, j * 0.9, key);
     const double offset = thickness_m * side + (side < 0 ? -rough : rough);
     return a + s * along + offset * across +
            Vec3(0, 0, z + (i >= up && i <= up + over ? rough : 0));
