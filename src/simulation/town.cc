@@ -262,6 +262,7 @@ class TownBuilder {
     const int count = static_cast<int>(samples.size());
     const bool avenue = random->Chance(0.6);
     const double lamp_phase = random->Uniform(0, 30);
+    int last_sign = -100;
     for (int i = 2; i < count - 2; ++i) {
       const StreetSample& sample = samples[static_cast<std::size_t>(i)];
       const Place kerb = Beside(sample, side, s.half_width_m + 0.45);
@@ -274,13 +275,12 @@ class TownBuilder {
           static_cast<int>((i + lamp_phase) / 30) != static_cast<int>((i - 1 + lamp_phase) / 30);
       if (lamp && side > 0) {
         AddLamp(foot, kerb.yaw - M_PI / 2, world_.NextInstance(), &world_.standing);
-      } else if (crossing < 2.5 && crossing > 1.5) {
+      } else if (i - last_sign > 15 && (crossing < 2.5 || random->Chance(1 / 40.))) {
+        last_sign = i;
         AddSign(foot, kerb.yaw, random->Bits(), world_.NextInstance(), &world_.standing);
       } else if (avenue && crossing > 6 && random->Chance(1 / 12.)) {
         AddTree(foot, random->Uniform(6, 10), world_.NextInstance(), random, &world_.standing);
         i += 5;
-      } else if (random->Chance(1 / 40.)) {
-        AddSign(foot, kerb.yaw, random->Bits(), world_.NextInstance(), &world_.standing);
       } else if (random->Chance(1 / 25.)) {
         const Place wall = Beside(sample, side, s.half_width_m + s.pavement_m - 0.4);
         AddBox(Placement(wall.position.x(), wall.position.y(), kPavementM, wall.yaw),
