@@ -6,6 +6,7 @@
 #include <cmath>
 #include <iostream>
 
+#include "apps/lidar_flags.h"
 #include "residuals/correspondence.h"
 #include "src/cloud/normals.h"
 #include "src/common/error.h"
@@ -16,7 +17,12 @@
 #include "src/io/point_files.h"
 #include "src/io/transform.h"
 #include "src/objective/loss.h"
+#include "src/simulation/scenes.h"
 
+DECLARE_int32(seed);
+DEFINE_string(scene, "",
+              "Simulated scene: straight_street, right_turn, highway or highway_overtaking, by "
+              "--seed; needs no data.");
 DEFINE_string(kitti_root, "", "Folder of the KITTI odometry data (with sequences/ and poses/).");
 DEFINE_string(sequence, "00", "KITTI sequence.");
 DEFINE_int32(frame, -1, "KITTI scan to register: the source.");
@@ -40,6 +46,7 @@ DEFINE_string(out, "out", "Folder for the results.");
 namespace icpscape {
 namespace {
 
+bool FromScene() { return !FLAGS_scene.empty(); }
 bool FromKitti() { return !FLAGS_kitti_root.empty(); }
 
 int TargetFrame() { return FLAGS_target_frame >= 0 ? FLAGS_target_frame : FLAGS_frame - 1; }
@@ -58,6 +65,21 @@ PointCloud Load(const std::string& role, const std::filesystem::path& path, Mani
   manifest->SetResult(role + "_dropped_non_finite", static_cast<double>(dropped.non_finite));
   manifest->SetResult(role + "_dropped_zero", static_cast<double>(dropped.zero));
   return cloud;
+}
+
+void SimulateScene(ScanPair* pair, Manifest* manifest) {
+  SimulatedPair simulated = SimulatePair(FLAGS_scene, SeedFromFlags(), LidarFromFlags(),
+                                         ThreadsFromFlags());
+  pair->title = "simulated " + FLAGS_scene + ", seed " + std::to_string(FLAGS_seed) +
+                ", motion of KITTI " + simulated.paper_frame;
+  pair->T_ground_truth = simulated.T_target_source;
+  pair->T_prior = simulated.T_prior;
+  pair->source = std::move(simulated.source);
+  pair->target = std::move(simulated.target);
+  std::cout << pair->title << ": source " << pair->source.size() << " points, target "
+            << pair->target.size() << " points\n";
+  manifest->SetResult("source_points", static_cast<double>(pair->source.size()));
+  manifest->SetResult("target_points", static_cast<double>(pair->target.size()));
 }
 
 void LoadKitti(ScanPair* pair, Manifest* manifest) {
@@ -102,7 +124,16 @@ void Require(bool good, const std::string& flag, const std::string& value,
 }  // namespace
 
 void CheckPairFlags() {
-  if (FromKitti()) {
+  if (FromScene()) {
+    if (FromKitti() || !FLAGS_source.empty() || !FLAGS_target.empty() ||
+        !FLAGS_ground_truth.empty()) {
+      throw UsageError(
+          "--scene names an input of its own: expected neither --kitti_root nor --source, --target "
+          "and --ground_truth with it.");
+    }
+    CheckSceneName(FLAGS_scene);
+    LidarFromFlags();
+  } else if (FromKitti()) {
     if (!FLAGS_source.empty() || !FLAGS_target.empty() || !FLAGS_ground_truth.empty()) {
       throw UsageError(
           "--kitti_root and --source name two inputs; expected one of them (with --kitti_root the "
@@ -117,8 +148,10 @@ void CheckPairFlags() {
             "the number of a scan, or -1 for the one before --frame");
   } else if (FLAGS_source.empty() || FLAGS_target.empty()) {
     throw UsageError(
-        "no input: expected --kitti_root=DIR --frame=N, or --source=FILE --target=FILE.");
+        "no input: expected --scene=NAME, or --kitti_root=DIR --frame=N, or --source=FILE "
+        "--target=FILE.");
   }
+  SeedFromFlags();
   Require(FLAGS_normal_neighbors >= 3, "normal_neighbors", std::to_string(FLAGS_normal_neighbors),
           "at least 3");
   Require(FLAGS_normal_radius_m >= 0 && std::isfinite(FLAGS_normal_radius_m), "normal_radius_m",
@@ -135,7 +168,9 @@ void CheckPairFlags() {
 
 ScanPair LoadPair(const std::vector<std::string>& metrics, Manifest* manifest) {
   ScanPair pair;
-  if (FromKitti()) {
+  if (FromScene()) {
+    SimulateScene(&pair, manifest);
+  } else if (FromKitti()) {
     LoadKitti(&pair, manifest);
   } else {
     LoadFiles(&pair, manifest);

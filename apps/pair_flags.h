@@ -19,15 +19,16 @@ struct ScanPair {
   PointCloud source;
   PointCloud target;
   std::optional<SE3d> T_ground_truth;  ///< T_target_source.
+  std::optional<SE3d> T_prior;         ///< The motion of the frame before, where it is known.
   std::string title;                   ///< For figures: "KITTI 00, scan 95 to 94".
 };
 
 /// Refuses what can be seen to be wrong before any file is read. Throws UsageError.
 void CheckPairFlags();
 
-/// Reads the pair of --kitti_root --sequence --frame, or of --source --target --ground_truth,
-/// estimates normals where one of the metrics needs them, prints what was read and dropped, and
-/// records inputs and timings.
+/// Simulates the pair of --scene --seed, or reads that of --kitti_root --sequence --frame or of
+/// --source --target --ground_truth; estimates normals where one of the metrics
+/// needs them, prints what was read and dropped, and records inputs and timings.
 ScanPair LoadPair(const std::vector<std::string>& metrics, Manifest* manifest);
 
 /// --metrics, checked against the registry. Throws UsageError.

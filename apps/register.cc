@@ -15,6 +15,7 @@
 #include "src/minimizer/ground_truth_check.h"
 #include "src/minimizer/random_starts.h"
 
+DECLARE_int32(seed);
 DECLARE_string(metrics);
 
 DEFINE_string(initial, "", "Text file of the 4x4 start pose; none is the identity.");
@@ -27,7 +28,6 @@ DEFINE_double(min_step_deg, 1e-3, "... and turns by less than this (degrees).");
 DEFINE_int32(starts, 0, "Random starts about the reference, to measure the success rate.");
 DEFINE_double(start_m, 0.5, "Longest translation of a random start (m).");
 DEFINE_double(start_deg, 3, "Largest rotation of a random start (degrees).");
-DEFINE_int32(seed, 1, "Seed of the random starts.");
 
 namespace icpscape {
 namespace {
@@ -147,7 +147,7 @@ void Register() {
   }
   const ScanPair pair = LoadPair(metrics, &manifest);
   if (FLAGS_starts > 0 && !pair.T_ground_truth) {
-    throw UsageError("--starts needs a reference: expected --ground_truth or --kitti_root.");
+    throw UsageError("--starts needs a reference: expected --scene, --kitti_root or --ground_truth.");
   }
 
   const ClosestPointMatcher matcher(pair.target, MatchingFromFlags());

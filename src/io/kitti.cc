@@ -113,6 +113,19 @@ SE3d KittiSequence::RelativeMotion(int to, int from) const {
          poses[static_cast<std::size_t>(from)] * Tr;
 }
 
+std::vector<SE3d> KittiSequence::LidarPoses() const {
+  const SE3d Tr = ReadKittiCalibration(CalibrationPath());
+  std::vector<SE3d> poses = ReadKittiPoses(PosesPath());
+  if (poses.empty()) {
+    throw InputError(PosesPath().string() + ": no rows; expected one pose per frame.");
+  }
+  const SE3d T_first_camera = Tr.Inverse() * poses[0].Inverse();
+  for (SE3d& pose : poses) {
+    pose = T_first_camera * pose * Tr;
+  }
+  return poses;
+}
+
 SE3d ReadKittiCalibration(const std::filesystem::path& path) {
   std::ifstream in = Open(path, "a KITTI calib.txt");
   std::string line;

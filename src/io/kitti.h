@@ -35,6 +35,9 @@ class KittiSequence {
   /// InputError where calib.txt or the rows of the pose file are missing or malformed.
   SE3d RelativeMotion(int to, int from) const;
 
+  /// All poses of the lidar, T_first_i in the frame of the first: Tr^-1 P_0^-1 P_i Tr.
+  std::vector<SE3d> LidarPoses() const;
+
  private:
   std::filesystem::path root_;
   std::string sequence_;

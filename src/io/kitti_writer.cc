@@ -1,0 +1,72 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "src/io/kitti_writer.h"
+
+#include <glog/logging.h>
+
+#include <cstdint>
+#include <fstream>
+
+#include "src/common/text.h"
+#include "src/io/output.h"
+
+namespace icpscape {
+namespace {
+
+template <class T>
+void WriteBinary(const std::filesystem::path& path, const std::vector<T>& values) {
+  WriteThenRename(path, [&](const std::filesystem::path& part) {
+    std::ofstream out(part, std::ios::binary);
+    out.write(reinterpret_cast<const char*>(values.data()),
+              static_cast<std::streamsize>(values.size() * sizeof(T)));
+    out.close();
+    return out.good();
+  });
+}
+
+std::string Row(const SE3d& T) {
+  std::vector<std::string> numbers;
+  for (int i = 0; i < 3; ++i) {
+    for (int j = 0; j < 3; ++j) {
+      numbers.push_back(Number(T.R()(i, j)));
+    }
+    numbers.push_back(Number(T.t()(i)));
+  }
+  return Join(numbers, " ");
+}
+
+}  // namespace
+
+void WriteVelodyne(const std::filesystem::path& path, const PointCloud& cloud) {
+  std::vector<float> values;
+  values.reserve(4 * cloud.size());
+  for (std::size_t i = 0; i < cloud.size(); ++i) {
+    values.insert(values.end(), {cloud.x[i], cloud.y[i], cloud.z[i],
+                                 cloud.intensity.empty() ? 0.F : cloud.intensity[i]});
+  }
+  WriteBinary(path, values);
+}
+
+void WriteLabels(const std::filesystem::path& path, const PointCloud& cloud) {
+  CHECK_EQ(cloud.label.size(), cloud.size());
+  WriteBinary(path, cloud.label);
+}
+
+void WriteRings(const std::filesystem::path& path, const PointCloud& cloud) {
+  CHECK_EQ(cloud.ring.size(), cloud.size());
+  WriteBinary(path, std::vector<std::uint8_t>(cloud.ring.begin(), cloud.ring.end()));
+}
+
+void WriteKittiPoses(const std::filesystem::path& path, const std::vector<SE3d>& T_world_lidar,
+                     const SE3d& Tr) {
+  std::string text;
+  for (const SE3d& T : T_world_lidar) {
+    text += Row(Tr * T_world_lidar[0].Inverse() * T * Tr.Inverse()) + "\n";
+  }
+  WriteTextFile(path, text);
+}
+
+void WriteKittiCalibration(const std::filesystem::path& path, const SE3d& Tr) {
+  WriteTextFile(path, "Tr: " + Row(Tr) + "\n");
+}
+
+}  // namespace icpscape

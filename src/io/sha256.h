@@ -1,0 +1,15 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#ifndef ICPSCAPE_SRC_IO_SHA256_H_
+#define ICPSCAPE_SRC_IO_SHA256_H_
+
+#include <filesystem>
+#include <string>
+
+namespace icpscape {
+
+/// SHA-256 of a file's bytes, in hexadecimal. Throws InputError where it cannot be read.
+std::string Sha256(const std::filesystem::path& path);
+
+}  // namespace icpscape
+
+#endif  // ICPSCAPE_SRC_IO_SHA256_H_

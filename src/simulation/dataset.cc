@@ -1,0 +1,130 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "src/simulation/dataset.h"
+
+#include <array>
+#include <cstdio>
+#include <fstream>
+#include <nlohmann/json.hpp>
+
+#include "src/common/error.h"
+#include "src/common/text.h"
+#include "src/io/kitti_writer.h"
+#include "src/io/output.h"
+#include "src/io/point_files.h"
+#include "src/io/sha256.h"
+#include "src/simulation/scenes.h"
+
+namespace icpscape {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+// KITTI's camera looks forward with x right and y down, 0.27 m ahead of the lidar and 0.08 m below
+// it [Geiger et al. 2013, fig. 3].
+SE3d CameraFromLidar() {
+  Mat3 R;
+  R << 0, -1, 0, 0, 0, -1, 1, 0, 0;
+  return SE3d(R, Vec3(0, -0.08, -0.27));
+}
+
+std::string ScanName(int index, const char* extension) {
+  std::array<char, 24> name;
+  std::snprintf(name.data(), name.size(), "%06d.%s", index, extension);
+  return name.data();
+}
+
+// What an earlier run recorded; empty where it did not, or of other parameters.
+Json ReadRecord(const std::filesystem::path& path, const std::string& parameters) {
+  std::ifstream in(path);
+  const Json record = Json::parse(in, nullptr, false);
+  const bool usable = record.is_object() && record.value("parameters", "") == parameters &&
+                      record.contains("files") && record["files"].is_object();
+  return usable ? record["files"] : Json::object();
+}
+
+bool IsWhole(const std::filesystem::path& folder, const std::string& name, const Json& files) {
+  return files.contains(name) && files[name].is_string() &&
+         std::filesystem::exists(folder / name) && Sha256(folder / name) == files[name];
+}
+
+void PrepareFolders(const DatasetOptions& options, const std::filesystem::path& folder) {
+  if (std::filesystem::exists(folder / "velodyne") &&
+      !std::filesystem::exists(folder / "simulation.json")) {
+    throw InputError(folder.string() +
+                     ": holds scans that were not simulated here; expected another --out.");
+  }
+  PrepareOutputFolder(options.root / "poses");
+  for (const char* kind : {"velodyne", "labels", "rings"}) {
+    PrepareOutputFolder(folder / kind);
+  }
+  if (options.ply) {
+    PrepareOutputFolder(folder / "ply");
+  }
+}
+
+}  // namespace
+
+DatasetSummary WriteDataset(const DatasetOptions& options, const std::vector<SE3d>& T_world_lidar,
+                            const std::function<PointCloud(int)>& scan,
+                            const std::function<void(int)>& progress) {
+  const std::filesystem::path folder = options.root / "sequences" / options.name;
+  const std::filesystem::path record_path = folder / "simulation.json";
+  PrepareFolders(options, folder);
+  const Json known = ReadRecord(record_path, options.parameters);
+  Json record = {{"parameters", options.parameters}, {"files", Json::object()}};
+  const auto write_record = [&] { WriteTextFile(record_path, record.dump(1) + "\n"); };
+  if (known.empty()) {
+    // From here on the folder is ours, and nothing in it counts.
+    write_record();
+    for (const char* kind : {"velodyne", "labels", "rings", "ply"}) {
+      std::filesystem::remove_all(folder / kind);
+    }
+    PrepareFolders(options, folder);
+  }
+  DatasetSummary summary;
+  std::string times;
+  const int count = static_cast<int>(T_world_lidar.size());
+  for (int i = 0; i < count; ++i) {
+    std::vector<std::string> names = {"velodyne/" + ScanName(i, "bin"),
+                                      "labels/" + ScanName(i, "label"),
+                                      "rings/" + ScanName(i, "ring")};
+    if (options.ply) {
+      names.push_back("ply/" + ScanName(i, "ply"));
+    }
+    bool whole = true;
+    for (const std::string& name : names) {
+      whole = whole && IsWhole(folder, name, known);
+    }
+    if (whole) {
+      ++summary.kept;
+    } else {
+      const PointCloud cloud = scan(i);
+      WriteVelodyne(folder / names[0], cloud);
+      WriteLabels(folder / names[1], cloud);
+      WriteRings(folder / names[2], cloud);
+      if (options.ply) {
+        WritePly(folder / names[3], cloud);
+      }
+      ++summary.simulated;
+    }
+    for (const std::string& name : names) {
+      record["files"][name] = whole ? known[name] : Json(Sha256(folder / name));
+    }
+    constexpr int kRecordEvery = 20;
+    if (summary.simulated % kRecordEvery == kRecordEvery - 1) {
+      write_record();
+    }
+    times += Number(i * kScanPeriodS) + "\n";
+    if (progress) {
+      progress(i + 1);
+    }
+  }
+  WriteTextFile(folder / "times.txt", times);
+  WriteKittiCalibration(folder / "calib.txt", CameraFromLidar());
+  WriteKittiPoses(options.root / "poses" / (options.name + ".txt"), T_world_lidar,
+                  CameraFromLidar());
+  write_record();
+  return summary;
+}
+
+}  // namespace icpscape

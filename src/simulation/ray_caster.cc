@@ -1,0 +1,76 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "src/simulation/ray_caster.h"
+
+#include <embree3/rtcore.h>
+#include <glog/logging.h>
+
+#include <cmath>
+
+namespace icpscape {
+
+struct RayCaster::Impl {
+  Mesh mesh;
+  RTCDevice device = nullptr;
+  RTCScene scene = nullptr;
+
+  explicit Impl(Mesh m) : mesh(std::move(m)) {
+    device = rtcNewDevice("isa=sse2,threads=1");
+    CHECK(device != nullptr) << "Embree does not start: error " << rtcGetDeviceError(nullptr);
+    scene = rtcNewScene(device);
+    // Robust: no ray slips between two triangles of one edge.
+    rtcSetSceneFlags(scene, RTC_SCENE_FLAG_ROBUST);
+    if (mesh.size() > 0) {
+      mesh.vertices.push_back({0, 0, 0});  // Embree reads 16 bytes of the last vertex.
+      RTCGeometry geometry = rtcNewGeometry(device, RTC_GEOMETRY_TYPE_TRIANGLE);
+      rtcSetSharedGeometryBuffer(geometry, RTC_BUFFER_TYPE_VERTEX, 0, RTC_FORMAT_FLOAT3,
+                                 mesh.vertices.data(), 0, sizeof(mesh.vertices[0]),
+                                 mesh.vertices.size() - 1);
+      rtcSetSharedGeometryBuffer(geometry, RTC_BUFFER_TYPE_INDEX, 0, RTC_FORMAT_UINT3,
+                                 mesh.triangles.data(), 0, sizeof(mesh.triangles[0]),
+                                 mesh.triangles.size());
+      rtcCommitGeometry(geometry);
+      rtcAttachGeometry(scene, geometry);
+      rtcReleaseGeometry(geometry);
+    }
+    rtcCommitScene(scene);
+    CHECK_EQ(rtcGetDeviceError(device), RTC_ERROR_NONE);
+  }
+  Impl(const Impl&) = delete;
+  Impl& operator=(const Impl&) = delete;
+  ~Impl() {
+    rtcReleaseScene(scene);
+    rtcReleaseDevice(device);
+  }
+};
+
+RayCaster::RayCaster(Mesh mesh) : impl_(std::make_unique<Impl>(std::move(mesh))) {}
+RayCaster::~RayCaster() = default;
+RayCaster::RayCaster(RayCaster&&) noexcept = default;
+RayCaster& RayCaster::operator=(RayCaster&&) noexcept = default;
+
+bool RayCaster::Cast(const Vec3& origin, const Vec3& direction, double max_range_m,
+                     RayHit* hit) const {
+  RTCRayHit query{};
+  query.ray.org_x = static_cast<float>(origin.x());
+  query.ray.org_y = static_cast<float>(origin.y());
+  query.ray.org_z = static_cast<float>(origin.z());
+  query.ray.dir_x = static_cast<float>(direction.x());
+  query.ray.dir_y = static_cast<float>(direction.y());
+  query.ray.dir_z = static_cast<float>(direction.z());
+  query.ray.tfar = static_cast<float>(max_range_m);
+  query.ray.mask = 0xFFFFFFFFU;
+  query.hit.geomID = RTC_INVALID_GEOMETRY_ID;
+  RTCIntersectContext context;
+  rtcInitIntersectContext(&context);
+  rtcIntersect1(impl_->scene, &context, &query);
+  if (query.hit.geomID == RTC_INVALID_GEOMETRY_ID) {
+    return false;
+  }
+  const Vec3 normal(query.hit.Ng_x, query.hit.Ng_y, query.hit.Ng_z);
+  hit->range_m = query.ray.tfar;
+  hit->cos_incidence = std::abs(normal.normalized().dot(direction));
+  hit->surface = impl_->mesh.surfaces[query.hit.primID];
+  return true;
+}
+
+}  // namespace icpscape

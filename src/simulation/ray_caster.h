@@ -1,0 +1,42 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#ifndef ICPSCAPE_SRC_SIMULATION_RAY_CASTER_H_
+#define ICPSCAPE_SRC_SIMULATION_RAY_CASTER_H_
+
+#include <cstdint>
+#include <memory>
+
+#include "src/simulation/mesh.h"
+
+namespace icpscape {
+
+/// Where a ray ends.
+struct RayHit {
+  double range_m = 0;
+  double cos_incidence = 0;  ///< Of the angle between the ray and the surface's normal, 0 to 1.
+  Surface surface{};
+};
+
+/// First hits of rays with a mesh, through Embree. Safe to use from many threads at once.
+///
+/// The tree is built by one thread with SSE2 code alone, so that a mesh gives the same hits on
+/// every machine. While a caster lives, Embree holds oneTBB to one thread in the whole process:
+/// cast from threads of your own, and keep casters short-lived.
+class RayCaster {
+ public:
+  explicit RayCaster(Mesh mesh);
+  ~RayCaster();
+  RayCaster(RayCaster&&) noexcept;
+  RayCaster& operator=(RayCaster&&) noexcept;
+
+  /// The nearest hit with range in [0, max_range_m]; false where there is none. `direction` has
+  /// unit length.
+  bool Cast(const Vec3& origin, const Vec3& direction, double max_range_m, RayHit* hit) const;
+
+ private:
+  struct Impl;
+  std::unique_ptr<Impl> impl_;
+};
+
+}  // namespace icpscape
+
+#endif  // ICPSCAPE_SRC_SIMULATION_RAY_CASTER_H_

@@ -1,0 +1,33 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "src/simulation/simulator.h"
+
+#include <optional>
+
+#include "src/simulation/random.h"
+
+namespace icpscape {
+namespace {
+
+LidarOptions Checked(const LidarOptions& options) {
+  options.Check();
+  return options;
+}
+
+}  // namespace
+
+Simulator::Simulator(World world, const LidarOptions& options, std::uint64_t seed)
+    : world_(std::move(world)),
+      options_(Checked(options)),
+      seed_(seed),
+      standing_(std::move(world_.standing)) {}
+
+PointCloud Simulator::Scan(const SE3d& T_world_lidar, double time_s, int index, int threads) const {
+  std::optional<RayCaster> moving;
+  if (!world_.moving.empty()) {
+    moving.emplace(world_.MovingAt(time_s));
+  }
+  return ScanWorld(standing_, moving ? &*moving : nullptr, T_world_lidar, options_,
+                   MixKeys(seed_, 101), MixKeys(seed_, 102, index), threads);
+}
+
+}  // namespace icpscape

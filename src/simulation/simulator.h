@@ -1,0 +1,30 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#ifndef ICPSCAPE_SRC_SIMULATION_SIMULATOR_H_
+#define ICPSCAPE_SRC_SIMULATION_SIMULATOR_H_
+
+#include <cstdint>
+
+#include "src/cloud/point_cloud.h"
+#include "src/simulation/lidar.h"
+#include "src/simulation/world.h"
+
+namespace icpscape {
+
+/// A lidar in a world. Scans depend on the seed and their index, not on threads or order.
+class Simulator {
+ public:
+  /// Throws UsageError where no lidar can have those options.
+  Simulator(World world, const LidarOptions& options, std::uint64_t seed);
+
+  PointCloud Scan(const SE3d& T_world_lidar, double time_s, int index, int threads) const;
+
+ private:
+  World world_;
+  LidarOptions options_;
+  std::uint64_t seed_;
+  RayCaster standing_;
+};
+
+}  // namespace icpscape
+
+#endif  // ICPSCAPE_SRC_SIMULATION_SIMULATOR_H_
