@@ -107,6 +107,13 @@ int RunApp(int argc, char** argv, const std::string& summary, const std::functio
   }
 }
 
+void RequireFlag(bool good, const std::string& flag, const std::string& value,
+                 const std::string& expected) {
+  if (!good) {
+    throw UsageError("--" + flag + "=" + value + ": expected " + expected + ".");
+  }
+}
+
 void RecordFlags(Manifest* manifest) {
   for (const gflags::CommandLineFlagInfo& flag : OwnFlags()) {
     manifest->SetFlag(flag.name, flag.current_value);

@@ -19,6 +19,10 @@ int RunApp(int argc, char** argv, const std::string& summary, const std::functio
 /// Name of the running program, as in "icpscape-landscape".
 const std::string& AppName();
 
+/// Throws UsageError "--flag=value: expected ..." unless good.
+void RequireFlag(bool good, const std::string& flag, const std::string& value,
+                 const std::string& expected);
+
 /// Records the effective value of each of this program's flags.
 void RecordFlags(Manifest* manifest);
 

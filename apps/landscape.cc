@@ -8,17 +8,20 @@
 #include <iostream>
 
 #include "apps/app.h"
+#include "apps/filter_flags.h"
+#include "apps/objective_flags.h"
 #include "apps/pair_flags.h"
 #include "src/common/error.h"
 #include "src/common/text.h"
 #include "src/io/output.h"
 #include "src/minimizer/ground_truth_check.h"
 
-DEFINE_double(u_min, -1, "Start of the path; u = 0 is the identity, u = 1 the reference pose.");
+DEFINE_double(u_min, -1, "Start of the path; u = 0 is --initial, u = 1 the reference pose.");
 DEFINE_double(u_max, 2, "End of the path.");
 DEFINE_int32(samples, 100, "Poses along the path, both ends included.");
 DEFINE_string(path, "lerp_slerp",
-              "lerp_slerp (the paper's, sec. 3.1) or geodesic (constant twist in SE(3)).");
+              "lerp_slerp (the paper's, sec. 3.1), geodesic (constant twist in SE(3)) or bicycle "
+              "(constant speed and steering).");
 DEFINE_string(reference, "ground_truth",
               "Pose at u = 1: ground_truth as given, or refined by point-to-plane.");
 DEFINE_string(association, "reassociate",
@@ -56,6 +59,10 @@ void PrintMinima(const std::vector<Curve>& curves, double motion_m, Manifest* ma
 
 void CheckFlags(const CurveOptions& options) {
   CheckPairFlags();
+  CheckFilterFlags();
+  MetricsFromFlags();
+  FeaturesFromFlags();
+  ObjectiveSetFromFlags();
   options.Check();
   PathKindFromName(FLAGS_path);
   if (FLAGS_reference != "ground_truth" && FLAGS_reference != "refined") {
@@ -93,30 +100,26 @@ void Landscape() {
   const std::vector<std::string> metrics = MetricsFromFlags();
   Manifest manifest(AppName());
   RecordFlags(&manifest);
-  const ScanPair pair = LoadPair(metrics, &manifest);
+  ScanPair pair = LoadPair(metrics, &manifest);
   if (!pair.T_ground_truth) {
     throw UsageError(
         "no ground truth: expected --ground_truth=FILE (T_target_source as 4x4 text).");
   }
   const SE3d T_reference = ReferencePose(pair, &manifest);
+  FilterPair(&pair, &manifest);
 
-  const ClosestPointMatcher matcher(pair.target, MatchingFromFlags());
-  std::vector<Objective> objectives;
-  for (const std::string& metric : metrics) {
-    objectives.emplace_back(metric, pair.source, pair.target, matcher, LossFromFlags());
-  }
-  const Path path(SE3d(), T_reference, PathKindFromName(FLAGS_path));
-  Matches frozen;
+  const ObjectiveSet set(pair.source, pair.target, pair.features, metrics, ObjectiveSetFromFlags());
+  const Path path(pair.T_initial, T_reference, PathKindFromName(FLAGS_path));
   std::string association = "re-associated at every pose";
   if (FLAGS_association == "frozen") {
-    frozen = objectives[0].Match(path.Pose(FLAGS_frozen_u), options.threads);
-    options.frozen = &frozen;
-    association = "pairs frozen at u = " + Number(FLAGS_frozen_u);
+    options.frozen_u = FLAGS_frozen_u;
+    association = "matches frozen at u = " + Number(FLAGS_frozen_u);
   }
   std::vector<Curve> curves;
   {
     Progress progress("poses", options.samples);
-    curves = EvaluateCurves(objectives, path, options, [&](int done) { progress.Show(done); });
+    curves =
+        EvaluateCurves(set.objectives(), path, options, [&](int done) { progress.Show(done); });
   }
   manifest.AddTiming("landscape");
 

@@ -5,10 +5,14 @@
 
 #include <cmath>
 #include <iostream>
+#include <utility>
 
+#include "apps/app.h"
 #include "apps/lidar_flags.h"
+#include "apps/objective_flags.h"
 #include "residuals/correspondence.h"
 #include "src/cloud/normals.h"
+#include "src/cloud/rings.h"
 #include "src/common/error.h"
 #include "src/common/parallel.h"
 #include "src/common/text.h"
@@ -16,7 +20,6 @@
 #include "src/io/output.h"
 #include "src/io/point_files.h"
 #include "src/io/transform.h"
-#include "src/objective/loss.h"
 #include "src/simulation/scenes.h"
 
 DECLARE_int32(seed);
@@ -32,14 +35,13 @@ DEFINE_string(target, "", "Target cloud, with --source.");
 DEFINE_string(ground_truth, "", "Text file of the true 4x4 T_target_source, with --source.");
 DEFINE_double(elevation_correction_deg, 0,
               "Turn KITTI's points up by this angle (degrees); 0.205 is in use for the HDL-64.");
-DEFINE_string(metrics, "point_to_point,point_to_plane,symmetric",
-              "Metrics, separated by commas; icpscape-list_metrics names them.");
 DEFINE_int32(normal_neighbors, 20, "Neighbours of a normal, the point itself included.");
 DEFINE_double(normal_radius_m, 0, "If positive: all points within this radius instead (m).");
-DEFINE_double(max_distance_m, 0, "Longest distance of a pair (m); 0 is no limit, as in the paper.");
-DEFINE_string(loss, "none",
-              "Loss on each residual: none, huber, soft_l_one, cauchy, arctan, tukey, tolerant.");
-DEFINE_double(loss_scale_m, 0.1, "Length at which the loss bends (m).");
+DEFINE_bool(reverse, false, "Swap source and target, and invert what is known about their motion.");
+DEFINE_string(
+    initial, "identity",
+    "Pose at u = 0 and start of register: identity (paper), previous_motion, or the path of a "
+    "text file of the 4x4 T_target_source.");
 DEFINE_int32(threads, 0, "Threads; 0 is all of the machine. Results do not depend on it.");
 DEFINE_string(out, "out", "Folder for the results.");
 
@@ -68,8 +70,8 @@ PointCloud Load(const std::string& role, const std::filesystem::path& path, Mani
 }
 
 void SimulateScene(ScanPair* pair, Manifest* manifest) {
-  SimulatedPair simulated = SimulatePair(FLAGS_scene, SeedFromFlags(), LidarFromFlags(),
-                                         ThreadsFromFlags());
+  SimulatedPair simulated =
+      SimulatePair(FLAGS_scene, SeedFromFlags(), LidarFromFlags(), ThreadsFromFlags());
   pair->title = "simulated " + FLAGS_scene + ", seed " + std::to_string(FLAGS_seed) +
                 ", motion of KITTI " + simulated.paper_frame;
   pair->T_ground_truth = simulated.T_target_source;
@@ -87,6 +89,9 @@ void LoadKitti(ScanPair* pair, Manifest* manifest) {
   pair->title = "KITTI " + FLAGS_sequence + ", scan " + std::to_string(FLAGS_frame) + " to " +
                 std::to_string(TargetFrame());
   pair->T_ground_truth = sequence.RelativeMotion(TargetFrame(), FLAGS_frame);
+  if (TargetFrame() > 0) {
+    pair->T_prior = sequence.RelativeMotion(TargetFrame() - 1, FLAGS_frame - 1);
+  }
   manifest->AddInput(sequence.PosesPath());
   manifest->AddInput(sequence.CalibrationPath());
   pair->source = Load("source", sequence.ScanPath(FLAGS_frame), manifest);
@@ -104,6 +109,44 @@ void LoadFiles(ScanPair* pair, Manifest* manifest) {
   pair->target = Load("target", FLAGS_target, manifest);
 }
 
+void Reverse(ScanPair* pair) {
+  std::swap(pair->source, pair->target);
+  for (std::optional<SE3d>* T : {&pair->T_ground_truth, &pair->T_prior}) {
+    if (*T) {
+      *T = (*T)->Inverse();
+    }
+  }
+  pair->title += ", reversed";
+}
+
+SE3d InitialPose(const ScanPair& pair, Manifest* manifest) {
+  if (FLAGS_initial == "identity") {
+    return SE3d();
+  }
+  if (FLAGS_initial == "previous_motion") {
+    if (!pair.T_prior) {
+      throw UsageError(
+          "--initial=previous_motion: expected an input that knows the motion before.");
+    }
+    return *pair.T_prior;
+  }
+  manifest->AddInput(FLAGS_initial);
+  return ReadTransform(FLAGS_initial);
+}
+
+// Before any filter: a scan line with holes has other neighbours.
+void AddFeatures(ScanPair* pair, Manifest* manifest) {
+  const FeatureOptions options = FeaturesFromFlags();
+  if (options.smoothness.neighborhood == SmoothnessNeighborhood::kRing) {
+    RecoverRings(&pair->source);
+  }
+  pair->features = ExtractFeatures(pair->source, options, ThreadsFromFlags());
+  std::cout << "source: " << pair->features.num_edge << " edge points, "
+            << pair->features.num_planar << " planar points\n";
+  manifest->SetResult("edge_points", static_cast<double>(pair->features.num_edge));
+  manifest->SetResult("planar_points", static_cast<double>(pair->features.num_planar));
+}
+
 void AddNormals(const std::string& role, PointCloud* cloud) {
   NeighborhoodOptions options;
   options.num_neighbors = FLAGS_normal_neighbors;
@@ -111,13 +154,6 @@ void AddNormals(const std::string& role, PointCloud* cloud) {
   const std::size_t without = EstimateNormals(options, ThreadsFromFlags(), cloud);
   if (without > 0) {
     std::cout << role << ": " << without << " points have no normal\n";
-  }
-}
-
-void Require(bool good, const std::string& flag, const std::string& value,
-             const std::string& expected) {
-  if (!good) {
-    throw UsageError("--" + flag + "=" + value + ": expected " + expected + ".");
   }
 }
 
@@ -139,31 +175,40 @@ void CheckPairFlags() {
           "--kitti_root and --source name two inputs; expected one of them (with --kitti_root the "
           "ground truth comes from the poses).");
     }
-    Require(FLAGS_frame >= 0, "frame", std::to_string(FLAGS_frame), "the number of a scan");
+    RequireFlag(FLAGS_frame >= 0, "frame", std::to_string(FLAGS_frame), "the number of a scan");
     if (FLAGS_frame == 0 && FLAGS_target_frame < 0) {
       throw UsageError(
           "--frame=0: no scan comes before it; expected at least 1, or --target_frame.");
     }
-    Require(FLAGS_target_frame >= -1, "target_frame", std::to_string(FLAGS_target_frame),
-            "the number of a scan, or -1 for the one before --frame");
+    RequireFlag(FLAGS_target_frame >= -1, "target_frame", std::to_string(FLAGS_target_frame),
+                "the number of a scan, or -1 for the one before --frame");
   } else if (FLAGS_source.empty() || FLAGS_target.empty()) {
     throw UsageError(
         "no input: expected --scene=NAME, or --kitti_root=DIR --frame=N, or --source=FILE "
         "--target=FILE.");
   }
   SeedFromFlags();
-  Require(FLAGS_normal_neighbors >= 3, "normal_neighbors", std::to_string(FLAGS_normal_neighbors),
-          "at least 3");
-  Require(FLAGS_normal_radius_m >= 0 && std::isfinite(FLAGS_normal_radius_m), "normal_radius_m",
-          Number(FLAGS_normal_radius_m), "a length in metres, or 0");
-  Require(FLAGS_max_distance_m >= 0 && std::isfinite(FLAGS_max_distance_m), "max_distance_m",
-          Number(FLAGS_max_distance_m), "a length in metres, or 0 for no limit");
-  Require(std::abs(FLAGS_elevation_correction_deg) <= 5, "elevation_correction_deg",
-          Number(FLAGS_elevation_correction_deg), "an angle within 5 degrees");
-  Require(FLAGS_threads >= 0 && FLAGS_threads <= 1024, "threads", std::to_string(FLAGS_threads),
-          "0 (all) to 1024");
-  MetricsFromFlags();
-  LossFromFlags();
+  RequireFlag(FLAGS_normal_neighbors >= 3, "normal_neighbors",
+              std::to_string(FLAGS_normal_neighbors), "at least 3");
+  RequireFlag(FLAGS_normal_radius_m >= 0 && std::isfinite(FLAGS_normal_radius_m), "normal_radius_m",
+              Number(FLAGS_normal_radius_m), "a length in metres, or 0");
+  RequireFlag(std::abs(FLAGS_elevation_correction_deg) <= 5, "elevation_correction_deg",
+              Number(FLAGS_elevation_correction_deg), "an angle within 5 degrees");
+  RequireFlag(FLAGS_threads >= 0 && FLAGS_threads <= 1024, "threads", std::to_string(FLAGS_threads),
+              "0 (all) to 1024");
+}
+
+void ScanPair::KeepSource(const std::vector<char>& keep) {
+  source = source.Select(keep);
+  for (std::vector<char>* mask : {&features.edge, &features.planar}) {
+    std::size_t kept = 0;
+    for (std::size_t i = 0; i < mask->size(); ++i) {
+      if (keep[i] != 0) {
+        (*mask)[kept++] = (*mask)[i];
+      }
+    }
+    mask->resize(kept);
+  }
 }
 
 ScanPair LoadPair(const std::vector<std::string>& metrics, Manifest* manifest) {
@@ -175,13 +220,19 @@ ScanPair LoadPair(const std::vector<std::string>& metrics, Manifest* manifest) {
   } else {
     LoadFiles(&pair, manifest);
   }
+  if (FLAGS_reverse) {
+    Reverse(&pair);
+  }
+  pair.T_initial = InitialPose(pair, manifest);
   CorrectElevation(FLAGS_elevation_correction_deg, &pair.source);
   CorrectElevation(FLAGS_elevation_correction_deg, &pair.target);
   manifest->AddTiming("read");
   // The ground-truth check is point-to-plane.
   unsigned needs = pair.T_ground_truth ? static_cast<unsigned>(kTargetNormal) : 0U;
+  bool features = false;
   for (const std::string& metric : metrics) {
     needs |= MetricNeeds(metric);
+    features |= NeedsFeatures(metric);
   }
   if ((needs & kSourceNormal) != 0) {
     AddNormals("source", &pair.source);
@@ -189,24 +240,12 @@ ScanPair LoadPair(const std::vector<std::string>& metrics, Manifest* manifest) {
   if ((needs & kTargetNormal) != 0) {
     AddNormals("target", &pair.target);
   }
-  manifest->AddTiming("normals");
+  if (features) {
+    AddFeatures(&pair, manifest);
+  }
+  manifest->AddTiming("normals_and_features");
   return pair;
 }
-
-std::vector<std::string> MetricsFromFlags() {
-  const std::vector<std::string> metrics = Split(FLAGS_metrics);
-  Require(!metrics.empty(), "metrics", FLAGS_metrics, "at least one metric");
-  for (const std::string& metric : metrics) {
-    CheckMetricName(metric);
-  }
-  return metrics;
-}
-
-std::shared_ptr<const ceres::LossFunction> LossFromFlags() {
-  return MakeLoss(FLAGS_loss, FLAGS_loss_scale_m);
-}
-
-MatchingOptions MatchingFromFlags() { return {FLAGS_max_distance_m}; }
 
 int ThreadsFromFlags() { return FLAGS_threads > 0 ? FLAGS_threads : HardwareThreads(); }
 

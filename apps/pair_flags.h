@@ -3,14 +3,13 @@
 #define ICPSCAPE_APPS_PAIR_FLAGS_H_
 
 #include <filesystem>
-#include <memory>
 #include <optional>
 #include <string>
 #include <vector>
 
+#include "src/cloud/features.h"
 #include "src/cloud/point_cloud.h"
 #include "src/io/manifest.h"
-#include "src/objective/objective.h"
 
 namespace icpscape {
 
@@ -20,24 +19,22 @@ struct ScanPair {
   PointCloud target;
   std::optional<SE3d> T_ground_truth;  ///< T_target_source.
   std::optional<SE3d> T_prior;         ///< The motion of the frame before, where it is known.
+  SE3d T_initial;                      ///< Pose at u = 0, and where register starts.
+  Features features;                   ///< Of the source, where a metric needs them.
   std::string title;                   ///< For figures: "KITTI 00, scan 95 to 94".
+
+  /// Keeps these points of the source and what is known about them. One entry per point.
+  void KeepSource(const std::vector<char>& keep);
 };
 
 /// Refuses what can be seen to be wrong before any file is read. Throws UsageError.
 void CheckPairFlags();
 
 /// Simulates the pair of --scene --seed, or reads that of --kitti_root --sequence --frame or of
-/// --source --target --ground_truth; estimates normals where one of the metrics
-/// needs them, prints what was read and dropped, and records inputs and timings.
+/// --source --target --ground_truth; estimates normals and extracts features where one of the
+/// metrics needs them, prints what was read and dropped, and records inputs and timings.
 ScanPair LoadPair(const std::vector<std::string>& metrics, Manifest* manifest);
 
-/// --metrics, checked against the registry. Throws UsageError.
-std::vector<std::string> MetricsFromFlags();
-
-/// The loss of --loss and --loss_scale_m; null for none.
-std::shared_ptr<const ceres::LossFunction> LossFromFlags();
-
-MatchingOptions MatchingFromFlags();
 int ThreadsFromFlags();
 /// --out, created and proved writable. Throws InputError.
 std::filesystem::path OutputFolder();

@@ -4,8 +4,11 @@
 #include <cmath>
 #include <cstdio>
 #include <iostream>
+#include <optional>
 
 #include "apps/app.h"
+#include "apps/filter_flags.h"
+#include "apps/objective_flags.h"
 #include "apps/pair_flags.h"
 #include "src/common/error.h"
 #include "src/common/text.h"
@@ -18,7 +21,9 @@
 DECLARE_int32(seed);
 DECLARE_string(metrics);
 
-DEFINE_string(initial, "", "Text file of the 4x4 start pose; none is the identity.");
+DEFINE_string(
+    weights, "",
+    "Weights of the metrics that are minimised together, separated by commas; none is 1 each.");
 DEFINE_string(reassociation, "every_step",
               "every_step (one Ceres step on frozen pairs, then match again) or every_evaluation "
               "(one Solve whose every pose is matched anew).");
@@ -95,7 +100,7 @@ void PrintDifference(const char* what, const SE3d& T_reference, const SE3d& T) {
               difference.LogRotation().norm() * kDegrees);
 }
 
-void RunStarts(const Objective& objective, const SE3d& T_reference, MinimizerOptions options,
+void RunStarts(const JointObjective& objective, const SE3d& T_reference, MinimizerOptions options,
                const std::filesystem::path& out, Manifest* manifest) {
   RandomStartOptions starts;
   starts.count = FLAGS_starts;
@@ -130,32 +135,56 @@ void RunStarts(const Objective& objective, const SE3d& T_reference, MinimizerOpt
   manifest->AddTiming("starts");
 }
 
-void Register() {
-  CheckPairFlags();
-  const std::vector<std::string> metrics = MetricsFromFlags();
-  if (metrics.size() != 1) {
-    throw UsageError("--metrics=" + FLAGS_metrics + ": expected one metric to minimise.");
+// The metrics of --metrics as one weighted sum.
+JointObjective JointFromFlags(const ObjectiveSet& set) {
+  const std::vector<std::string> weights = Split(FLAGS_weights);
+  std::vector<JointObjective::Term> terms;
+  for (std::size_t i = 0; i < set.objectives().size(); ++i) {
+    terms.push_back({&set.objectives()[i], weights.empty() ? 1.0 : ParseNumber(weights[i])});
   }
+  return JointObjective(std::move(terms));
+}
+
+void CheckFlags() {
+  CheckPairFlags();
+  CheckFilterFlags();
+  FeaturesFromFlags();
+  ObjectiveSetFromFlags();
+  MinimizerFromFlags();
+  const std::vector<std::string> weights = Split(FLAGS_weights);
+  RequireFlag(weights.empty() || weights.size() == MetricsFromFlags().size(), "weights",
+              FLAGS_weights, "one weight per metric");
+  for (const std::string& weight : weights) {
+    RequireFlag(ParseNumber(weight) > 0, "weights", FLAGS_weights, "positive numbers");
+  }
+}
+
+void Register() {
+  CheckFlags();
+  const std::vector<std::string> metrics = MetricsFromFlags();
   const MinimizerOptions options = MinimizerFromFlags();
   const std::filesystem::path out = OutputFolder();
   Manifest manifest(AppName());
   RecordFlags(&manifest);
-  SE3d T_start;
-  if (!FLAGS_initial.empty()) {
-    T_start = ReadTransform(FLAGS_initial);
-    manifest.AddInput(FLAGS_initial);
-  }
-  const ScanPair pair = LoadPair(metrics, &manifest);
+  ScanPair pair = LoadPair(metrics, &manifest);
   if (FLAGS_starts > 0 && !pair.T_ground_truth) {
-    throw UsageError("--starts needs a reference: expected --scene, --kitti_root or --ground_truth.");
+    throw UsageError(
+        "--starts needs a reference: expected --scene, --kitti_root or --ground_truth.");
   }
+  std::optional<GroundTruthCheck> check;
+  if (pair.T_ground_truth) {
+    check = CheckGroundTruth(pair.source, pair.target, *pair.T_ground_truth, options.threads);
+    manifest.AddTiming("ground_truth_check");
+  }
+  const PointCloud whole_source = pair.source;
+  FilterPair(&pair, &manifest);
 
-  const ClosestPointMatcher matcher(pair.target, MatchingFromFlags());
-  const Objective objective(metrics[0], pair.source, pair.target, matcher, LossFromFlags());
-  const MinimizerSummary summary = Minimize(objective, T_start, options);
+  const ObjectiveSet set(pair.source, pair.target, pair.features, metrics, ObjectiveSetFromFlags());
+  const JointObjective objective = JointFromFlags(set);
+  const MinimizerSummary summary = Minimize(objective, pair.T_initial, options);
   manifest.AddTiming("register");
   if (!summary.Usable()) {
-    throw ComputationError(metrics[0] + ": " + summary.message);
+    throw ComputationError(objective.Name() + ": " + summary.message);
   }
   const SE3d& T = summary.T_target_source();
   WriteIterations(summary, out);
@@ -165,14 +194,12 @@ void Register() {
   manifest.SetResult("final_cost", summary.final_cost());
   manifest.SetResult("matching_passes", summary.matching_passes);
   WriteTextFile(out / "T_target_source.txt", FormatTransform(T));
-  WritePly(out / "aligned.ply", pair.source.Transformed(T));
-  if (pair.T_ground_truth) {
+  WritePly(out / "aligned.ply", whole_source.Transformed(T));
+  if (check) {
     PrintDifference("ground truth", *pair.T_ground_truth, T);
-    const GroundTruthCheck check =
-        CheckGroundTruth(pair.source, pair.target, *pair.T_ground_truth, options.threads);
-    PrintDifference("refined reference", check.T_refined, T);
+    PrintDifference("refined reference", check->T_refined, T);
     if (FLAGS_starts > 0) {
-      RunStarts(objective, check.T_refined, options, out, &manifest);
+      RunStarts(objective, check->T_refined, options, out, &manifest);
     }
   }
   manifest.Write(out / "manifest.json");
@@ -184,10 +211,10 @@ void Register() {
 }  // namespace icpscape
 
 int main(int argc, char** argv) {
-  // One metric is minimised; landscape's default names three.
+  // landscape's default draws three metrics; here all that are named are minimised together.
   gflags::SetCommandLineOptionWithMode("metrics", "point_to_plane", gflags::SET_FLAGS_DEFAULT);
   return icpscape::RunApp(argc, argv,
-                          "registers two scans: minimises one metric's objective with Ceres, the "
-                          "closed loop.",
+                          "registers two scans: minimises the objective of one metric, or the "
+                          "weighted sum of several, with Ceres: the closed loop.",
                           icpscape::Register);
 }

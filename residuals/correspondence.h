@@ -22,8 +22,8 @@ enum class Epsilon {
   kSoftNorm,  ///< sqrt(1 + s) - 1: planar point to planar patch, one subtracted from each term.
 };
 
-/// The term and its derivative with respect to s. The derivative of kNorm is infinite at s = 0; 0 is
-/// returned there, the middle of its subgradients.
+/// The term and its derivative with respect to s. The derivative of kNorm is infinite at s = 0; 0
+/// is returned there, the middle of its subgradients.
 struct EpsilonTerm {
   double value;
   double derivative;

@@ -39,6 +39,13 @@ struct NormalEquations {
     upward_loss |= rho[2] > 0;
   }
 
+  /// Multiplies the objective by a weight (n stays).
+  void Scale(double weight) {
+    hessian *= weight;
+    gradient *= weight;
+    cost *= weight;
+  }
+
   NormalEquations& operator+=(const NormalEquations& other) {
     hessian += other.hessian;
     gradient += other.gradient;

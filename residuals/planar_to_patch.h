@@ -11,10 +11,10 @@ namespace icpscape {
 ///   r(T) = (R p_s + t - q) / A,  A = |(q_j - q_k) x (q_j - q_l)|        3x1, 1/m
 ///   J    = R [ -skew(p_s) | I ] / A                                     3x6
 /// The paper's term is |[T p - q; n]| / |n| = sqrt(1 + |r|^2), of which it subtracts one: that is
-/// 1/2 rho(|r|^2) of SoftLOneLoss(1), which belongs to this metric unless another loss is asked for.
-/// (Written as sqrt(1 + |r|^2) - 1 it would have no Jacobian at a match.) It is not a plane metric: a
-/// slide within the plane costs as much as the same distance off it; and it depends on the size of
-/// the virtual triangle, A being twice its area. LOAM's own distance is PlanarToPlane.
+/// 1/2 rho(|r|^2) of SoftLOneLoss(1), which belongs to this metric unless another loss is asked
+/// for. (Written as sqrt(1 + |r|^2) - 1 it would have no Jacobian at a match.) It is not a plane
+/// metric: a slide within the plane costs as much as the same distance off it; and it depends on
+/// the size of the virtual triangle, A being twice its area. LOAM's own distance is PlanarToPlane.
 /// Smooth everywhere.
 struct PlanarToPatch {
   static constexpr char kName[] = "planar_to_patch";
@@ -47,8 +47,8 @@ struct PlanarToPatch {
 };
 
 /// Planar point to planar patch as in LOAM: the signed distance from the plane through the patch
-/// [Zhang & Singh 2014, eq. 3]. Formula and derivative are PointToPlane's; the plane is fitted to the
-/// neighbours of T p instead of being a precomputed normal of the closest point.
+/// [Zhang & Singh 2014, eq. 3]. Formula and derivative are PointToPlane's; the plane is fitted to
+/// the neighbours of T p instead of being a precomputed normal of the closest point.
 struct PlanarToPlane {
   static constexpr char kName[] = "planar_to_plane";
   static constexpr char kFormula[] = "(T p - q) . n";

@@ -3,7 +3,10 @@
 
 #include <array>
 #include <charconv>
+#include <limits>
 #include <sstream>
+
+#include "src/common/error.h"
 
 namespace icpscape {
 
@@ -11,6 +14,14 @@ std::string Number(double value) {
   std::array<char, 32> buffer;
   const auto result = std::to_chars(buffer.data(), buffer.data() + buffer.size(), value);
   return std::string(buffer.data(), result.ptr);
+}
+
+double ParseNumber(const std::string& text) {
+  double value = 0;
+  const auto result = std::from_chars(text.data(), text.data() + text.size(), value);
+  return result.ec == std::errc() && result.ptr == text.data() + text.size()
+             ? value
+             : std::numeric_limits<double>::quiet_NaN();
 }
 
 std::string Fixed(double value, int digits) {
@@ -37,6 +48,16 @@ std::vector<std::string> Split(const std::string& text, char separator) {
     }
   }
   return parts;
+}
+
+std::size_t IndexOfName(const std::string& what, const std::string& name,
+                        const std::vector<std::string>& names) {
+  for (std::size_t i = 0; i < names.size(); ++i) {
+    if (names[i] == name) {
+      return i;
+    }
+  }
+  throw UsageError("unknown " + what + " \"" + name + "\": expected one of " + Join(names) + ".");
 }
 
 }  // namespace icpscape

@@ -26,8 +26,10 @@ std::vector<char> KeepOutside(const PointCloud& cloud, const Vec3& center, doubl
 
 }  // namespace
 
-PointCloud ArtificialBlindSpot(const PointCloud& cloud, double radius_m) {
-  return cloud.Select(KeepOutside(cloud, Vec3::Zero(), radius_m));
+FilteredPair ArtificialBlindSpots(const PointCloud& source, const PointCloud& target,
+                                  double radius_m) {
+  return SelectPair(source, target, KeepOutside(source, Vec3::Zero(), radius_m),
+                    KeepOutside(target, Vec3::Zero(), radius_m));
 }
 
 FilteredPair EgoBlindSpotFilter(const PointCloud& source, const PointCloud& target,

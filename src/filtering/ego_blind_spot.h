@@ -10,10 +10,11 @@ namespace icpscape {
 /// What the paper takes on KITTI, for both functions below [paper sec. 4.2].
 inline constexpr double kEgoBlindSpotRadius_m = 5;
 
-/// The cloud without its points within a horizontal circle about the sensor, x^2 + y^2 <= r^2:
+/// The scans without their points within a horizontal circle about their sensor, x^2 + y^2 <= r^2:
 /// KITTI's own blind spot is not circular, so the paper first makes one that is [paper sec. 4.2].
 /// Throws UsageError unless radius_m is a length above 0.
-PointCloud ArtificialBlindSpot(const PointCloud& cloud, double radius_m);
+FilteredPair ArtificialBlindSpots(const PointCloud& source, const PointCloud& target,
+                                  double radius_m);
 
 /// The ego blind spot filter, which the paper also calls the ego overlap filter [paper sec. 2.6]:
 /// drops the points of each scan that lie in the other scan's blind spot, a vertical cylinder of

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
 #include <mutex>
 
 #include "src/common/error.h"
@@ -79,24 +80,38 @@ std::vector<Curve> EvaluateCurves(const std::vector<Objective>& objectives, cons
   if (objectives.empty()) {
     return curves;
   }
+  const auto match = [&](const SE3d& T, int threads) {
+    std::map<const Matcher*, Matches> matches;
+    for (const Objective& objective : objectives) {
+      const auto [entry, is_new] = matches.try_emplace(&objective.matcher());
+      if (is_new) {
+        objective.matcher().Match(T, threads, &entry->second);
+      }
+    }
+    return matches;
+  };
+  std::map<const Matcher*, Matches> frozen;
+  if (options.frozen_u) {
+    frozen = match(path.Pose(*options.frozen_u), options.threads);
+  }
   std::mutex mutex;
   int done = 0;
   ParallelFor(static_cast<std::size_t>(options.samples), options.threads, [&](std::size_t i) {
     const double u = options.U(static_cast<int>(i));
     const SE3d T_u = path.Pose(u);
-    Matches own;
-    if (options.frozen == nullptr) {
-      own = objectives[0].Match(T_u, 1);
+    std::map<const Matcher*, Matches> own;
+    if (!options.frozen_u) {
+      own = match(T_u, 1);
     }
-    const Matches& matches = options.frozen == nullptr ? own : *options.frozen;
     for (std::size_t m = 0; m < objectives.size(); ++m) {
+      const Matcher& matcher = objectives[m].matcher();
+      const Matches& matches = (options.frozen_u ? frozen : own).at(&matcher);
       const Evaluation evaluation = objectives[m].Evaluate(T_u, matches, 1);
       if (evaluation.n() == 0) {
         throw ComputationError("no correspondence is left for " + objectives[m].metric() +
                                " at u = " + Number(u) + ".");
       }
-      curves[m].points[i] =
-          MakePoint(u, evaluation, objectives[m].num_source_points(), path.BodyTwist(u));
+      curves[m].points[i] = MakePoint(u, evaluation, matcher.source().size(), path.BodyTwist(u));
     }
     if (progress) {
       const std::lock_guard<std::mutex> lock(mutex);

@@ -3,6 +3,7 @@
 #define ICPSCAPE_SRC_LANDSCAPE_CURVE_H_
 
 #include <functional>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -37,8 +38,8 @@ struct CurveOptions {
   double u_max = 2;
   int samples = 100;  ///< Both ends included.
   int threads = 1;
-  /// Where set, all poses are evaluated with these matches instead of being re-associated.
-  const Matches* frozen = nullptr;
+  /// Where set, all poses are evaluated with the matches of this u instead of being re-associated.
+  std::optional<double> frozen_u;
 
   /// Throws UsageError for fewer than two samples or an empty interval.
   void Check() const;
@@ -46,8 +47,8 @@ struct CurveOptions {
 };
 
 /// Evaluates all objectives along the path, in parallel over poses; bit-identical for any number of
-/// threads. All objectives must share one source, target and matcher: each pose is matched once.
-/// `progress` (if any) is called with the number of poses done, from any thread but one at a time.
+/// threads. Objectives that share a matcher share its work. `progress` (if any) is called with the
+/// number of poses done, from any thread but one at a time.
 /// Throws ComputationError where a pose leaves a metric without correspondences.
 std::vector<Curve> EvaluateCurves(const std::vector<Objective>& objectives, const Path& path,
                                   const CurveOptions& options,

@@ -3,7 +3,6 @@
 
 #include <cmath>
 
-#include "src/common/error.h"
 #include "src/common/text.h"
 
 namespace icpscape {
@@ -27,12 +26,7 @@ const std::vector<std::string>& PathKindNames() {
 }
 
 PathKind PathKindFromName(const std::string& name) {
-  for (std::size_t i = 0; i < PathKindNames().size(); ++i) {
-    if (name == PathKindNames()[i]) {
-      return static_cast<PathKind>(i);
-    }
-  }
-  throw UsageError("unknown path \"" + name + "\": expected one of " + Join(PathKindNames()) + ".");
+  return static_cast<PathKind>(IndexOfName("path", name, PathKindNames()));
 }
 
 Path::Path(const SE3d& T_0, const SE3d& T_1, PathKind kind)

@@ -2,41 +2,46 @@
 #ifndef ICPSCAPE_SRC_MATCHING_CLOSEST_POINT_MATCHER_H_
 #define ICPSCAPE_SRC_MATCHING_CLOSEST_POINT_MATCHER_H_
 
-#include <cstdint>
-#include <vector>
+#include <optional>
 
-#include "src/cloud/point_cloud.h"
+#include "src/matching/matcher.h"
+#include "src/matching/rejection.h"
 #include "src/neighbors/neighbor_search.h"
 
 namespace icpscape {
 
-/// The match of each source point: its index in the target, or -1 where there is none.
-struct Matches {
-  std::vector<std::int32_t> target_index;
-
-  std::size_t Count() const;
-};
-
+/// Which pairs take part. All of it is off by default, as in the paper's plain curves; what is on
+/// is applied in this order.
 struct MatchingOptions {
-  /// Pairs further apart than this are not matched; 0 switches the gate off, as in the paper.
+  /// Pairs further apart than this are not matched; 0 is no limit.
   double max_distance_m = 0;
+  /// Only pairs whose q has p as its own closest point, up to this distance; 0 is strict
+  /// [paper sec. 2.5; Pajdla & Van Gool 1995].
+  std::optional<double> reciprocal_epsilon_m = std::nullopt;
+  /// Only pairs whose normals enclose at most this angle; 0 is no limit.
+  double max_normal_angle_rad = 0;
+  /// Only pairs up to this multiple of the median distance; 0 is no limit.
+  double max_median_factor = 0;
+  /// Only this fraction of the pairs, the closest; 1 is all.
+  double kept_fraction = 1;
+  /// Drops large regions of the source whose mean distance stands out.
+  std::optional<RegionOptions> regions = std::nullopt;
 };
 
 /// Closest-point correspondences p -> q [paper sec. 2]: for every source point the nearest target
-/// point to T p.
-class ClosestPointMatcher {
+/// point to T p, and then the rejections of the options.
+class ClosestPointMatcher final : public Matcher {
  public:
-  /// The cloud must outlive the matcher.
-  explicit ClosestPointMatcher(const PointCloud& target, const MatchingOptions& options = {});
+  ClosestPointMatcher(const PointCloud& source, const PointCloud& target,
+                      const MatchingOptions& options = {});
 
-  /// Matches every source point at the pose; the result does not depend on `threads`. The point is
-  /// moved in double and rounded to float once, for the search.
-  void Match(const PointCloud& source, const SE3d& T_target_source, int threads,
-             Matches* matches) const;
+  unsigned Provides() const override { return kSourceNormal | kTargetNormal; }
+  void Match(const SE3d& T_target_source, int threads, Matches* matches) const override;
 
  private:
+  MatchingOptions options_;
   NeighborSearch search_;
-  float max_squared_distance_;
+  std::optional<ReciprocalRejector> reciprocal_;
 };
 
 }  // namespace icpscape

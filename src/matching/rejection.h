@@ -3,7 +3,7 @@
 #define ICPSCAPE_SRC_MATCHING_REJECTION_H_
 
 #include "src/cloud/point_cloud.h"
-#include "src/matching/closest_point_matcher.h"
+#include "src/matching/matcher.h"
 #include "src/neighbors/neighbor_search.h"
 
 namespace icpscape {

@@ -2,13 +2,14 @@
 #include "src/minimizer/ground_truth_check.h"
 
 #include "src/common/error.h"
+#include "src/matching/closest_point_matcher.h"
 
 namespace icpscape {
 
 GroundTruthCheck CheckGroundTruth(const PointCloud& source, const PointCloud& target,
                                   const SE3d& T_ground_truth, int threads) {
-  const ClosestPointMatcher matcher(target, {kGroundTruthCheckGateM});
-  const Objective objective("point_to_plane", source, target, matcher);
+  const ClosestPointMatcher matcher(source, target, {kGroundTruthCheckGateM});
+  const Objective objective("point_to_plane", matcher);
   MinimizerOptions options;
   options.threads = threads;
   GroundTruthCheck check;

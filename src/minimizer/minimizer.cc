@@ -51,17 +51,17 @@ ceres::Solver::Options SolverOptions() {
 // The bookkeeping that both modes share.
 class Loop {
  public:
-  Loop(const Objective& objective, const MinimizerOptions& options)
+  Loop(const JointObjective& objective, const MinimizerOptions& options)
       : objective_(objective), options_(options) {}
 
   const MinimizerOptions& options() const { return options_; }
 
-  Evaluation Reassociated(const SE3d& T, Matches* matches) {
+  Evaluation Reassociated(const SE3d& T, std::vector<Matches>* matches) {
     *matches = objective_.Match(T, options_.threads);
     ++summary_.matching_passes;
     return Frozen(T, *matches);
   }
-  Evaluation Frozen(const SE3d& T, const Matches& matches) const {
+  Evaluation Frozen(const SE3d& T, const std::vector<Matches>& matches) const {
     return objective_.Evaluate(T, matches, options_.threads);
   }
 
@@ -113,7 +113,7 @@ class Loop {
 
  private:
   using Clock = std::chrono::steady_clock;
-  const Objective& objective_;
+  const JointObjective& objective_;
   const MinimizerOptions& options_;
   MinimizerSummary summary_;
   Clock::time_point start_ = Clock::now();
@@ -132,7 +132,7 @@ class FunctionCallback final : public ceres::IterationCallback {
 };
 
 // One Ceres step on frozen matches; false where no step lowers the frozen cost.
-bool Step(const Objective& objective, const Loop& loop, const Matches& matches,
+bool Step(const JointObjective& objective, const Loop& loop, const std::vector<Matches>& matches,
           const Evaluation& at_start, Parameters* x, std::string* failure) {
   ceres::Problem problem(UnownedLoss());
   ceres::Solver::Options options = SolverOptions();
@@ -165,10 +165,10 @@ bool Step(const Objective& objective, const Loop& loop, const Matches& matches,
   return summary.num_successful_steps > 1;
 }
 
-MinimizerSummary MinimizeEveryStep(const Objective& objective, Parameters x, Loop loop) {
+MinimizerSummary MinimizeEveryStep(const JointObjective& objective, Parameters x, Loop loop) {
   for (int iteration = 0;; ++iteration) {
     const SE3d T = SE3d::FromParameters(x.data());
-    Matches matches;
+    std::vector<Matches> matches;
     const Evaluation evaluation = loop.Reassociated(T, &matches);
     if (evaluation.n() == 0) {
       return loop.EndNoCorrespondences();
@@ -196,7 +196,7 @@ MinimizerSummary MinimizeEveryEvaluation(Parameters x, Loop loop) {
     Evaluation evaluation;
   } last;
   const auto evaluate = [&](const SE3d& T) {
-    Matches matches;
+    std::vector<Matches> matches;
     last = {T, loop.Reassociated(T, &matches)};
   };
   evaluate(SE3d::FromParameters(x.data()));
@@ -277,7 +277,7 @@ const char* TerminationName(Termination termination) {
   return "";
 }
 
-MinimizerSummary Minimize(const Objective& objective, const SE3d& T_start,
+MinimizerSummary Minimize(const JointObjective& objective, const SE3d& T_start,
                           const MinimizerOptions& options) {
   const Parameters x = ToParameters(T_start);
   Loop loop(objective, options);

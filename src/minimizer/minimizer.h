@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "src/objective/objective.h"
+#include "src/objective/joint_objective.h"
 
 namespace icpscape {
 
@@ -69,7 +69,7 @@ struct MinimizerSummary {
 /// The closed loop [paper fig. 1]: minimises the objective from a start pose with Ceres, through
 /// one SquareRootCost (or, for a loss with rho'' > 0, one residual block per pair; that needs
 /// kEveryStep and is said in the log). Never throws for trouble with the data: see termination.
-MinimizerSummary Minimize(const Objective& objective, const SE3d& T_start,
+MinimizerSummary Minimize(const JointObjective& objective, const SE3d& T_start,
                           const MinimizerOptions& options);
 
 }  // namespace icpscape

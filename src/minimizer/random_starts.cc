@@ -36,7 +36,7 @@ std::vector<SE3d> RandomStarts(const SE3d& T_reference, const RandomStartOptions
   return starts;
 }
 
-std::vector<StartResult> RunRandomStarts(const Objective& objective, const SE3d& T_reference,
+std::vector<StartResult> RunRandomStarts(const JointObjective& objective, const SE3d& T_reference,
                                          const RandomStartOptions& options,
                                          const std::function<void(int)>& progress) {
   const std::vector<SE3d> starts = RandomStarts(T_reference, options);

@@ -36,7 +36,7 @@ std::vector<SE3d> RandomStarts(const SE3d& T_reference, const RandomStartOptions
 
 /// Minimises from every start, in parallel over starts; results in the order of RandomStarts.
 /// `progress` (if any) is called with the number done, one call at a time.
-std::vector<StartResult> RunRandomStarts(const Objective& objective, const SE3d& T_reference,
+std::vector<StartResult> RunRandomStarts(const JointObjective& objective, const SE3d& T_reference,
                                          const RandomStartOptions& options,
                                          const std::function<void(int)>& progress = nullptr);
 

@@ -7,7 +7,7 @@
 
 #include "residuals/normal_equations.h"
 #include "src/cloud/point_cloud.h"
-#include "src/matching/closest_point_matcher.h"
+#include "src/matching/matcher.h"
 
 namespace ceres {
 class LossFunction;
@@ -27,6 +27,9 @@ struct Evaluation {
   /// d epsilon / d xi, T <- T Exp([omega; v]).
   Vec6 epsilon_gradient = Vec6::Zero();
 
+  /// Adds weight times the other; n counts whole.
+  void Add(const Evaluation& other, double weight);
+
   long n() const { return sums.num_correspondences; }
   /// RMSE(eps) = sqrt(eps / n) [paper sec. 4]; NaN where n = 0.
   double Rmse() const;
@@ -40,39 +43,41 @@ struct Evaluation {
 /// solver and every plot.
 ///
 /// It is evaluated either with frozen matches, at any pose, or re-associated, with the matches that
-/// belong to the pose. The clouds and the matcher must outlive it. Evaluations are bit-identical
+/// belong to the pose. The matcher and its clouds must outlive it. Evaluations are bit-identical
 /// for any number of threads, and safe from several threads at once.
 class Objective {
  public:
-  /// Throws UsageError for an unknown metric (the message lists the known ones). A metric that
-  /// needs normals needs them in the clouds (CHECKed).
-  Objective(const std::string& metric, const PointCloud& source, const PointCloud& target,
-            const ClosestPointMatcher& matcher,
+  /// Throws UsageError for an unknown metric (the message lists the known ones). The matcher must
+  /// provide what the metric needs, and the clouds the normals (CHECKed). Without a loss, a metric
+  /// whose printed form is one (planar_to_patch: SoftLOneLoss(1)) keeps that.
+  Objective(const std::string& metric, const Matcher& matcher,
             std::shared_ptr<const ceres::LossFunction> loss = nullptr);
 
   const std::string& metric() const { return metric_; }
-  std::size_t num_source_points() const { return source_->size(); }
+  const Matcher& matcher() const { return *matcher_; }
 
   Matches Match(const SE3d& T_target_source, int threads) const;
 
-  /// Frozen: the sums over these pairs at this pose. Pairs without a valid normal, where the metric
-  /// needs one, are left out.
+  /// Frozen: the sums over these matches at this pose. Pairs without a valid normal, where the
+  /// metric needs one, are left out.
   Evaluation Evaluate(const SE3d& T_target_source, const Matches& matches, int threads) const;
 
   /// Re-associated: matched at this pose, then summed.
   Evaluation Evaluate(const SE3d& T_target_source, int threads) const;
 
-  /// Adds one CeresCost per pair to the problem, over the seven parameters x (with the loss, which
-  /// the problem must not own). The way round SquareRootCost where a loss has rho'' > 0, and the
-  /// second opinion in the tests.
-  void AddResidualBlocks(const Matches& matches, double* x, ceres::Problem* problem) const;
+  /// Adds one CeresCost per pair to the problem, over the seven parameters x, under the loss (null
+  /// for none), which the problem must not own. The way round SquareRootCost where a loss has
+  /// rho'' > 0, and the second opinion in the tests.
+  void AddResidualBlocks(const Matches& matches, const ceres::LossFunction* loss, double* x,
+                         ceres::Problem* problem) const;
+
+  /// Null for none.
+  const ceres::LossFunction* loss() const { return loss_.get(); }
 
  private:
   struct MetricFunctions;
   std::string metric_;
-  const PointCloud* source_;
-  const PointCloud* target_;
-  const ClosestPointMatcher* matcher_;
+  const Matcher* matcher_;
   std::shared_ptr<const ceres::LossFunction> loss_;
   const MetricFunctions* functions_;
 };

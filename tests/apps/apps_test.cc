@@ -17,7 +17,7 @@
 #include "src/common/text.h"
 #include "src/io/point_files.h"
 #include "src/io/transform.h"
-#include "tests/support/real_data.h"
+#include "tests/support/real_scans.h"
 #include "tests/support/scenes.h"
 #include "tests/support/temporary_folder.h"
 
@@ -206,7 +206,8 @@ TEST(AppsHelp, ListsOwnFlagsAndExitsWithZero) {
     EXPECT_THAT(outcome.out, HasSubstr("Exit codes"));
     EXPECT_THAT(outcome.out, Not(HasSubstr("logtostderr")));
   }
-  EXPECT_THAT(RunProgram("landscape", {"--help"}).out, HasSubstr("--samples  (int32, default 100)"));
+  EXPECT_THAT(RunProgram("landscape", {"--help"}).out,
+              HasSubstr("--samples  (int32, default 100)"));
 }
 
 TEST(AppsListMetrics, NamesAll) {
@@ -221,8 +222,10 @@ TEST_F(Apps, WrongCommandLines) {
   ExpectRefusal(RunProgram("landscape", {}), 1, "expected --kitti_root=DIR --frame=N, or --source");
   ExpectRefusal(RunProgram("landscape", Files({"stray"})), 1, "stray argument \"stray\"");
   ExpectRefusal(RunProgram("landscape", Files({"--nonsense=1"})), 1, "nonsense");
-  ExpectRefusal(RunProgram("landscape", Files({"--samples=1"})), 1, "samples 1: expected at least 2");
-  ExpectRefusal(RunProgram("landscape", Files({"--u_min=2", "--u_max=2"})), 1, "expected u_min below");
+  ExpectRefusal(RunProgram("landscape", Files({"--samples=1"})), 1,
+                "samples 1: expected at least 2");
+  ExpectRefusal(RunProgram("landscape", Files({"--u_min=2", "--u_max=2"})), 1,
+                "expected u_min below");
   ExpectRefusal(RunProgram("landscape", Files({"--metrics=point_to_pint"})), 1,
                 "expected one of point_to_point, point_to_plane, symmetric");
   ExpectRefusal(RunProgram("landscape", Files({"--metrics="})), 1, "expected at least one metric");
@@ -231,7 +234,8 @@ TEST_F(Apps, WrongCommandLines) {
   ExpectRefusal(RunProgram("landscape", Files({"--max_distance_m=-1"})), 1, "expected a length");
   ExpectRefusal(RunProgram("landscape", Files({"--threads=-2"})), 1, "--threads=-2");
   ExpectRefusal(RunProgram("landscape", Files({"--kitti_root=x"})), 1, "expected one of them");
-  ExpectRefusal(RunProgram("landscape", {"--kitti_root=x", "--frame=0"}), 1, "no scan comes before it");
+  ExpectRefusal(RunProgram("landscape", {"--kitti_root=x", "--frame=0"}), 1,
+                "no scan comes before it");
   ExpectRefusal(RunProgram("landscape", {"--kitti_root=x"}), 1, "--frame=-1");
   ExpectRefusal(RunProgram("register", Files({"--loss=hubert"})), 1, "none, huber");
   ExpectRefusal(RunProgram("register", Files({"--loss_scale_m=0", "--loss=huber"})), 1, "positive");
@@ -256,8 +260,10 @@ TEST_F(Apps, BrokenData) {
   folder_.Write("file", "");
   ExpectRefusal(RunProgram("landscape", Files({"--out=" + Path("file")})), 2, "expected a folder");
 
-  ExpectRefusal(RunProgram("landscape", Kitti({"--sequence=77"})), 2, "sequences/77: no such folder");
-  ExpectRefusal(RunProgram("landscape", Kitti({"--frame=2"})), 2, "2 rows; expected a row for frame 2");
+  ExpectRefusal(RunProgram("landscape", Kitti({"--sequence=77"})), 2,
+                "sequences/77: no such folder");
+  ExpectRefusal(RunProgram("landscape", Kitti({"--frame=2"})), 2,
+                "2 rows; expected a row for frame 2");
   const std::string scan = "kitti/sequences/00/velodyne/000001.bin";
   const std::string whole = ReadFile(Path(scan));
   folder_.Write(scan, whole.substr(0, 1000));
@@ -283,12 +289,14 @@ TEST_F(Apps, NanPointsAreDroppedAndCounted) {
 TEST_F(Apps, NoCorrespondenceLeft) {
   ExpectRefusal(RunProgram("landscape", Files({"--max_distance_m=1e-9"})), 3,
                 "no correspondence is left for");
-  ExpectRefusal(RunProgram("register", Files({"--max_distance_m=1e-9"})), 3, "No pair of points is left");
+  ExpectRefusal(RunProgram("register", Files({"--max_distance_m=1e-9"})), 3,
+                "No pair of points is left");
   EXPECT_FALSE(std::filesystem::exists(Path("out/T_target_source.txt")));
 }
 
 TEST(AppsRealData, LastCostOfRegisterIsTheLandscapesOn0095) {
-  ICPSCAPE_REQUIRE_KITTI(root);
+  ICPSCAPE_SKIP_WITHOUT_KITTI();
+  const std::filesystem::path root = KittiRoot();
   const TemporaryFolder folder;
   const std::string out = folder.path().string();
   const std::vector<std::string> kitti = {"--kitti_root=" + root.string(), "--frame=95"};
@@ -298,12 +306,12 @@ TEST(AppsRealData, LastCostOfRegisterIsTheLandscapesOn0095) {
     ASSERT_EQ(RunProgram("register", arguments).code, 0);
     const double cost = std::stod(ReadCsv(out + "/iterations.csv").back().at("cost"));
     const std::string scans = root.string() + "/sequences/00/velodyne/0000";
-    ASSERT_EQ(RunProgram("landscape", {"--source=" + scans + "95.bin", "--target=" + scans + "94.bin",
-                                "--ground_truth=" + out + "/T_target_source.txt", "--u_min=0",
-                                "--u_max=1", "--samples=2", "--metrics=" + metric,
-                                "--out=" + out})
-                  .code,
-              0);
+    ASSERT_EQ(
+        RunProgram("landscape", {"--source=" + scans + "95.bin", "--target=" + scans + "94.bin",
+                                 "--ground_truth=" + out + "/T_target_source.txt", "--u_min=0",
+                                 "--u_max=1", "--samples=2", "--metrics=" + metric, "--out=" + out})
+            .code,
+        0);
     const double landscape = std::stod(ReadCsv(out + "/curves.csv").back().at("cost"));
     EXPECT_NEAR(landscape, cost, 1e-12 * cost);
   }

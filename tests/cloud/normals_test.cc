@@ -8,7 +8,7 @@
 #include <Eigen/Eigenvalues>
 
 #include "src/io/kitti.h"
-#include "tests/support/real_data.h"
+#include "tests/support/real_scans.h"
 #include "tests/support/scenes.h"
 
 namespace icpscape {
@@ -84,7 +84,8 @@ TEST(Normals, SameBitsForAnyNumberOfThreads) {
 
 // A second method: PCL's estimator on the same neighbourhoods of a real scan.
 TEST(Normals, AgreeWithPclOnARealScan) {
-  ICPSCAPE_REQUIRE_KITTI(root);
+  ICPSCAPE_SKIP_WITHOUT_KITTI();
+  const std::filesystem::path root = KittiRoot();
   DroppedPoints dropped;
   PointCloud cloud = ReadVelodyne(KittiSequence(root, "00").ScanPath(95), &dropped);
   EstimateNormals({}, 2, &cloud);

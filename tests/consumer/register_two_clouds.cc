@@ -4,6 +4,7 @@
 #include <random>
 
 #include "src/cloud/normals.h"
+#include "src/matching/closest_point_matcher.h"
 #include "src/minimizer/minimizer.h"
 
 int main() {
@@ -20,8 +21,8 @@ int main() {
   }
   source = source.Transformed(truth.Inverse());
   EstimateNormals({}, 1, &target);
-  const ClosestPointMatcher matcher(target);
-  const Objective objective("point_to_plane", source, target, matcher);
+  const ClosestPointMatcher matcher(source, target);
+  const Objective objective("point_to_plane", matcher);
   const MinimizerSummary summary = Minimize(objective, SE3d(), {});
   const double error = (truth.Inverse() * summary.T_target_source()).Log().norm();
   std::printf("%s; off the truth by %g\n", summary.message.c_str(), error);

@@ -22,12 +22,12 @@ PointCloud Along(const std::vector<Vec3>& points) {
   return cloud;
 }
 
-TEST(ArtificialBlindSpot, IsACylinderWithItsBorder) {
+TEST(ArtificialBlindSpots, IsACylinderWithItsBorder) {
   const PointCloud cloud =
       Along({{5, 0, 0}, {5.001, 0, 0}, {3, 4, 100}, {3, -4.01, -2}, {0, 0, -1.7}});
-  EXPECT_THAT(ArtificialBlindSpot(cloud, 5).label, testing::ElementsAre(1, 3));
-  EXPECT_THROW(ArtificialBlindSpot(cloud, 0), UsageError);
-  EXPECT_THROW(ArtificialBlindSpot(cloud, std::nan("")), UsageError);
+  EXPECT_THAT(ArtificialBlindSpots(cloud, cloud, 5).source.label, testing::ElementsAre(1, 3));
+  EXPECT_THROW(ArtificialBlindSpots(cloud, cloud, 0), UsageError);
+  EXPECT_THROW(ArtificialBlindSpots(cloud, cloud, std::nan("")), UsageError);
 }
 
 TEST(EgoBlindSpotFilter, DropsWhatTheOtherSensorCannotSee) {
@@ -56,7 +56,7 @@ TEST(EgoBlindSpotFilter, WithoutMotionIsTheArtificialBlindSpot) {
   }
   const PointCloud cloud = Along(points);
   const FilteredPair pair = EgoBlindSpotFilter(cloud, cloud, SE3d(), kEgoBlindSpotRadius_m);
-  const PointCloud ring = ArtificialBlindSpot(cloud, kEgoBlindSpotRadius_m);
+  const PointCloud ring = ArtificialBlindSpots(cloud, cloud, kEgoBlindSpotRadius_m).source;
   EXPECT_EQ(pair.source.label, ring.label);
   EXPECT_EQ(pair.target.label, ring.label);
   EXPECT_EQ(ring.size(), 17U * 17U - 81U);  // 81 lattice points lie within a circle of radius 5.
@@ -73,8 +73,10 @@ TEST(EgoBlindSpotFilter, LeavesTheSameGroundToBothScans) {
       ground_source.emplace_back(x - 3, y, -1.7);
     }
   }
-  const PointCloud target = ArtificialBlindSpot(Along(ground_target), 5);
-  const PointCloud source = ArtificialBlindSpot(Along(ground_source), 5);
+  const PointCloud target =
+      ArtificialBlindSpots(Along(ground_target), Along(ground_target), 5).source;
+  const PointCloud source =
+      ArtificialBlindSpots(Along(ground_source), Along(ground_source), 5).source;
   EXPECT_NE(source.label, target.label);
   const FilteredPair pair = EgoBlindSpotFilter(source, target, T, 5);
   EXPECT_EQ(pair.source.label, pair.target.label);

@@ -3,11 +3,15 @@
 
 #include <gtest/gtest.h>
 
+#include <memory>
+
 #include "residuals/registry.h"
 #include "src/cloud/normals.h"
 #include "src/common/error.h"
 #include "src/io/kitti.h"
-#include "tests/support/real_data.h"
+#include "src/matching/closest_point_matcher.h"
+#include "tests/support/matchers.h"
+#include "tests/support/real_scans.h"
 #include "tests/support/scenes.h"
 
 namespace icpscape {
@@ -29,13 +33,18 @@ const MovedRoom& Room() {
   return room;
 }
 
-std::vector<Objective> AllObjectives(const ClosestPointMatcher& matcher) {
+/// Every registered metric over the room, each with a matcher of its own.
+struct EveryMetric {
+  std::vector<std::unique_ptr<Matcher>> matchers;
   std::vector<Objective> objectives;
-  ForEachMetric([&](auto tag) {
-    objectives.emplace_back(decltype(tag)::Metric::kName, Room().source, Room().target, matcher);
-  });
-  return objectives;
-}
+  EveryMetric() {
+    ForEachMetric([&](auto tag) {
+      const char* metric = decltype(tag)::Metric::kName;
+      matchers.push_back(testing_support::MatcherFor(metric, Room().source, Room().target));
+      objectives.emplace_back(metric, *matchers.back());
+    });
+  }
+};
 
 TEST(Curve, DefaultGridHitsStartAndReferenceExactly) {
   const CurveOptions options;
@@ -46,8 +55,8 @@ TEST(Curve, DefaultGridHitsStartAndReferenceExactly) {
 }
 
 TEST(Curve, MinimumLiesAtTheTruth) {
-  const ClosestPointMatcher matcher(Room().target);
-  const std::vector<Objective> objectives = AllObjectives(matcher);
+  const EveryMetric all;
+  const std::vector<Objective>& objectives = all.objectives;
   CurveOptions options;
   options.threads = 2;
   for (const Curve& curve :
@@ -58,9 +67,8 @@ TEST(Curve, MinimumLiesAtTheTruth) {
 
 // With frozen pairs the curve is smooth and its slope is the gradient along the path.
 TEST(Curve, FrozenSlopesAgree) {
-  const ClosestPointMatcher matcher(Room().target);
-  const std::vector<Objective> objectives = AllObjectives(matcher);
-  const Matches frozen = objectives[0].Match(kMotion, 1);
+  const EveryMetric all;
+  const std::vector<Objective>& objectives = all.objectives;
   for (const PathKind kind : {PathKind::kLerpSlerp, PathKind::kGeodesic}) {
     const Path path(SE3d(), kMotion, kind);
     for (const double u : {-0.7, 0.0, 0.4, 1.6}) {
@@ -69,7 +77,7 @@ TEST(Curve, FrozenSlopesAgree) {
       options.u_min = u - h;
       options.u_max = u + h;
       options.samples = 3;
-      options.frozen = &frozen;
+      options.frozen_u = 1;
       for (const Curve& curve : EvaluateCurves(objectives, path, options)) {
         const CurvePoint& p = curve.points[1];
         EXPECT_NEAR(p.slope_analytic, p.slope_numeric, 1e-6 * (1 + std::abs(p.slope_numeric)))
@@ -84,8 +92,8 @@ TEST(Curve, NumericSlopesAreExactForAParabola) {
   PointCloud source, target;
   testing_support::AddPoint({5, 0, 0}, &source);
   testing_support::AddPoint({6, 0, 0}, &target);
-  const ClosestPointMatcher matcher(target);
-  const std::vector<Objective> objectives = {Objective("point_to_point", source, target, matcher)};
+  const ClosestPointMatcher matcher(source, target);
+  const std::vector<Objective> objectives = {Objective("point_to_point", matcher)};
   CurveOptions options;
   options.u_max = 0.5;
   options.samples = 4;
@@ -101,8 +109,8 @@ TEST(Curve, NumericSlopesAreExactForAParabola) {
 }
 
 TEST(Curve, IsBitIdenticalForAnyNumberOfThreads) {
-  const ClosestPointMatcher matcher(Room().target);
-  const std::vector<Objective> objectives = AllObjectives(matcher);
+  const EveryMetric all;
+  const std::vector<Objective>& objectives = all.objectives;
   const Path path(SE3d(), kMotion, PathKind::kLerpSlerp);
   CurveOptions options;
   options.samples = 20;
@@ -118,9 +126,8 @@ TEST(Curve, IsBitIdenticalForAnyNumberOfThreads) {
 }
 
 TEST(Curve, RefusesAbsurdGridsAndEmptyMatchings) {
-  const ClosestPointMatcher matcher(Room().target, {1e-6});
-  const std::vector<Objective> objectives = {
-      Objective("point_to_point", Room().source, Room().target, matcher)};
+  const ClosestPointMatcher matcher(Room().source, Room().target, {1e-6});
+  const std::vector<Objective> objectives = {Objective("point_to_point", matcher)};
   const Path path(SE3d(), kMotion, PathKind::kLerpSlerp);
   EXPECT_THROW(EvaluateCurves(objectives, path, {}), ComputationError);
   CurveOptions options;
@@ -137,7 +144,8 @@ TEST(Curve, RefusesAbsurdGridsAndEmptyMatchings) {
 
 // On real scans the plane metrics' minimum lies at the ground truth.
 TEST(Curve, RealScansHaveTheirMinimumAtTheGroundTruth) {
-  ICPSCAPE_REQUIRE_KITTI(root);
+  ICPSCAPE_SKIP_WITHOUT_KITTI();
+  const std::filesystem::path root = KittiRoot();
   struct {
     const char* sequence;
     int frame;
@@ -151,9 +159,9 @@ TEST(Curve, RealScansHaveTheirMinimumAtTheGroundTruth) {
     EstimateNormals({}, 2, &source);
     EstimateNormals({}, 2, &target);
     const SE3d truth = sequence.RelativeMotion(c.frame - 1, c.frame);
-    const ClosestPointMatcher matcher(target);
-    const std::vector<Objective> objectives = {Objective("point_to_plane", source, target, matcher),
-                                               Objective("symmetric", source, target, matcher)};
+    const ClosestPointMatcher matcher(source, target);
+    const std::vector<Objective> objectives = {Objective("point_to_plane", matcher),
+                                               Objective("symmetric", matcher)};
     CurveOptions options;
     options.u_min = 17. / 33;  // The default grid's own samples about the minimum.
     options.u_max = 49. / 33;

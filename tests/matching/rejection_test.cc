@@ -8,6 +8,7 @@
 #include <random>
 
 #include "src/common/error.h"
+#include "src/matching/closest_point_matcher.h"
 #include "tests/support/real_scans.h"
 
 namespace icpscape {
@@ -77,7 +78,7 @@ TEST(ReciprocalRejector, WorksAtThePose) {
   const PointCloud source = Random(1, 500);
   const PointCloud target = source.Transformed(SomeMotion());
   Matches matches;
-  ClosestPointMatcher(target).Match(source, SomeMotion(), 1, &matches);
+  ClosestPointMatcher(source, target).Match(SomeMotion(), 1, &matches);
   ReciprocalRejector(source).Reject(target, SomeMotion(), 0, 1, &matches);
   for (std::size_t i = 0; i < source.size(); ++i) {
     EXPECT_EQ(matches.target_index[i], static_cast<std::int32_t>(i));
@@ -88,7 +89,7 @@ TEST(ReciprocalRejector, EqualsBruteForceForAnyNumberOfThreads) {
   const PointCloud source = Random(2, 5000), target = Random(3, 4000);
   const SE3d T = SomeMotion();
   Matches all;
-  ClosestPointMatcher(target).Match(source, T, 1, &all);
+  ClosestPointMatcher(source, target).Match(T, 1, &all);
   const ReciprocalRejector rejector(source);
   for (const double epsilon : {0., 0.3}) {
     Matches one = all, three = all;
@@ -215,7 +216,7 @@ TEST(ReciprocalRejector, KeepsOneSourcePointPerTargetPointOnARealPair) {
   const PointCloud source = KittiScan("00", 15), target = KittiScan("00", 14);
   const SE3d T = KittiSequence(KittiRoot(), "00").RelativeMotion(14, 15);
   Matches all;
-  ClosestPointMatcher(target).Match(source, T, 2, &all);
+  ClosestPointMatcher(source, target).Match(T, 2, &all);
   Matches strict = all, relaxed = all;
   const ReciprocalRejector rejector(source);
   rejector.Reject(target, T, 0, 2, &strict);

@@ -7,7 +7,7 @@
 #include <limits>
 
 #include "src/io/kitti.h"
-#include "tests/support/real_data.h"
+#include "tests/support/real_scans.h"
 #include "tests/support/scenes.h"
 
 namespace icpscape {
@@ -97,7 +97,8 @@ TEST(NeighborSearch, EmptyCloudHasNoNeighbors) {
 }
 
 TEST(NeighborSearch, EqualsBruteForceOnARealScan) {
-  ICPSCAPE_REQUIRE_KITTI(root);
+  ICPSCAPE_SKIP_WITHOUT_KITTI();
+  const std::filesystem::path root = KittiRoot();
   DroppedPoints dropped;
   const KittiSequence sequence(root, "00");
   const PointCloud target = ReadVelodyne(sequence.ScanPath(94), &dropped);

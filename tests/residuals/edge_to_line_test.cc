@@ -28,10 +28,10 @@ struct ResidualProperties<EdgeToLine> {
 template <>
 struct ResidualProperties<EdgeToLineDistance> {
   static constexpr bool kInvariantToTargetFrame = true;
-  // On the line the distance has a kink; within a centimetre of it curvature beats the tolerance of
+  // On the line the distance has a kink; near it curvature beats the tolerance of
   // central differences.
   static bool IsSmoothAt(const EdgeToLineDistance& metric, const SE3d& T) {
-    return metric.Residual(T)[0] > 0.05;
+    return metric.Residual(T)[0] > 0.2;
   }
   static std::vector<Vec6> NullSpace(const EdgeToLineDistance& metric, const SE3d& T) {
     return LineNullSpace(metric.line, T);

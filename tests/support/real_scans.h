@@ -4,6 +4,7 @@
 
 #include <gtest/gtest.h>
 
+#include <cstdlib>
 #include <filesystem>
 #include <string>
 
@@ -11,9 +12,12 @@
 
 namespace icpscape {
 
-/// Where the real scans lie; they are no part of the project.
+/// Folder of KITTI odometry data: $ICPSCAPE_KITTI_ROOT, or ../shared/data/kitti beside the
+/// checkout. The data are no part of the project.
 inline std::filesystem::path KittiRoot() {
-  return std::filesystem::path(ICPSCAPE_SOURCE_DIR) / "../shared/data/kitti";
+  const char* root = std::getenv("ICPSCAPE_KITTI_ROOT");
+  return root != nullptr ? std::filesystem::path(root)
+                         : std::filesystem::path(ICPSCAPE_SOURCE_DIR) / "../shared/data/kitti";
 }
 
 inline PointCloud KittiScan(const std::string& sequence, int frame) {
@@ -26,6 +30,6 @@ inline PointCloud KittiScan(const std::string& sequence, int frame) {
 /// First line of a test on real scans.
 #define ICPSCAPE_SKIP_WITHOUT_KITTI()                        \
   if (!std::filesystem::is_directory(icpscape::KittiRoot())) \
-  GTEST_SKIP() << "no KITTI scans at ../shared/data/kitti beside the project's folder"
+  GTEST_SKIP() << "no KITTI data: set ICPSCAPE_KITTI_ROOT to a folder with sequences/ and poses/"
 
 #endif  // ICPSCAPE_TESTS_SUPPORT_REAL_SCANS_H_

@@ -1,0 +1,67 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#ifndef ICPSCAPE_SRC_MATCHING_LOCAL_FIT_MATCHER_H_
+#define ICPSCAPE_SRC_MATCHING_LOCAL_FIT_MATCHER_H_
+
+#include <string>
+#include <vector>
+
+#include "src/matching/matcher.h"
+#include "src/neighbors/neighbor_search.h"
+
+namespace icpscape {
+
+/// What the sum of squares about the mean is divided by before its eigenvalues are compared with a
+/// threshold in m^2. The paper does not say; over five points with 2 cm of noise the rule
+/// lambda_3 < 1e-4 lets through 12, 47 or 40 % of the patches.
+enum class EigenvalueScale { kScatter, kOverN, kOverNMinusOne };
+EigenvalueScale EigenvalueScaleFromName(const std::string& name);
+const std::vector<std::string>& EigenvalueScaleNames();
+
+/// Which point stands for the line or patch: the neighbours' mean (LOAM's mapping stage, A-LOAM) or
+/// the nearest of them.
+enum class FitAnchor { kCentroid, kNearest };
+FitAnchor FitAnchorFromName(const std::string& name);
+const std::vector<std::string>& FitAnchorNames();
+
+/// When neighbours count as a line or a patch; the defaults are the paper's (sec. 4.2).
+struct LocalFitOptions {
+  int num_neighbors = 5;
+  /// Line: lambda_1 > ratio lambda_2. Patch: lambda_2 > ratio lambda_3. LIO-SAM takes 3 as well.
+  double eigenvalue_ratio = 3;
+  /// Patch: lambda_3 below this (m^2).
+  double max_smallest_eigenvalue_m2 = 1e-4;
+  EigenvalueScale eigenvalue_scale = EigenvalueScale::kOverN;
+  FitAnchor anchor = FitAnchor::kCentroid;
+  /// The farthest neighbour may be this far from T p; 0 is no limit. A-LOAM takes 1 m.
+  double max_neighbor_distance_m = 0;
+  /// Legs of the patch's right-angled virtual triangle (m); the paper gives no size.
+  double triangle_leg_m = 0.5;
+};
+
+/// Fits a line [LOAM's edge lines; paper sec. 2.4.1] or a patch [sec. 2.4.2] to the nearest target
+/// points of T p, for every source point and pose. Points whose neighbours are neither have no
+/// match. The sources are features: see cloud/features.h.
+class LocalFitMatcher final : public Matcher {
+ public:
+  enum class Shape { kLine, kPatch };
+
+  LocalFitMatcher(Shape shape, const PointCloud& source, const PointCloud& target,
+                  const LocalFitOptions& options = {});
+
+  unsigned Provides() const override {
+    return shape_ == Shape::kLine ? kTargetLine : kTargetPatch;
+  }
+  void Match(const SE3d& T_target_source, int threads, Matches* matches) const override;
+
+ private:
+  bool Fit(const Eigen::Vector3f& query, const std::vector<Neighbor>& neighbors,
+           LocalFit* fit) const;
+
+  Shape shape_;
+  LocalFitOptions options_;
+  NeighborSearch search_;
+};
+
+}  // namespace icpscape
+
+#endif  // ICPSCAPE_SRC_MATCHING_LOCAL_FIT_MATCHER_H_

@@ -1,0 +1,69 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "src/objective/joint_objective.h"
+
+#include <ceres/loss_function.h>
+#include <glog/logging.h>
+
+#include <utility>
+
+#include "src/common/error.h"
+#include "src/common/text.h"
+
+namespace icpscape {
+
+JointObjective::JointObjective(std::vector<Term> terms) : terms_(std::move(terms)) {
+  for (const Term& term : terms_) {
+    if (!(term.weight > 0)) {
+      throw UsageError("weight " + Number(term.weight) + " of " + term.objective->metric() +
+                       ": expected a positive number.");
+    }
+    // Ceres takes a mutable pointer but never changes the loss.
+    scaled_losses_.push_back(std::make_unique<ceres::ScaledLoss>(
+        const_cast<ceres::LossFunction*>(term.objective->loss()), term.weight,
+        ceres::DO_NOT_TAKE_OWNERSHIP));
+  }
+}
+
+JointObjective::~JointObjective() = default;
+JointObjective::JointObjective(JointObjective&&) noexcept = default;
+JointObjective& JointObjective::operator=(JointObjective&&) noexcept = default;
+
+std::string JointObjective::Name() const {
+  std::vector<std::string> names;
+  for (const Term& term : terms_) {
+    names.push_back(term.objective->metric());
+  }
+  return Join(names, " + ");
+}
+
+std::vector<Matches> JointObjective::Match(const SE3d& T_target_source, int threads) const {
+  std::vector<Matches> matches;
+  for (std::size_t k = 0; k < terms_.size(); ++k) {
+    std::size_t same = 0;
+    while (&terms_[same].objective->matcher() != &terms_[k].objective->matcher()) {
+      ++same;
+    }
+    matches.push_back(same < k ? matches[same]
+                               : terms_[k].objective->Match(T_target_source, threads));
+  }
+  return matches;
+}
+
+Evaluation JointObjective::Evaluate(const SE3d& T_target_source,
+                                    const std::vector<Matches>& matches, int threads) const {
+  CHECK_EQ(matches.size(), terms_.size());
+  Evaluation sum;
+  for (std::size_t k = 0; k < terms_.size(); ++k) {
+    sum.Add(terms_[k].objective->Evaluate(T_target_source, matches[k], threads), terms_[k].weight);
+  }
+  return sum;
+}
+
+void JointObjective::AddResidualBlocks(const std::vector<Matches>& matches, double* x,
+                                       ceres::Problem* problem) const {
+  for (std::size_t k = 0; k < terms_.size(); ++k) {
+    terms_[k].objective->AddResidualBlocks(matches[k], scaled_losses_[k].get(), x, problem);
+  }
+}
+
+}  // namespace icpscape

@@ -1,0 +1,56 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#ifndef ICPSCAPE_SRC_OBJECTIVE_OBJECTIVE_SET_H_
+#define ICPSCAPE_SRC_OBJECTIVE_OBJECTIVE_SET_H_
+
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "src/cloud/features.h"
+#include "src/matching/closest_point_matcher.h"
+#include "src/matching/local_fit_matcher.h"
+#include "src/objective/objective.h"
+
+namespace icpscape {
+
+/// Whether a metric works on edge or planar points, which must be extracted first.
+bool NeedsFeatures(const std::string& metric);
+
+/// How the objectives of several metrics are set up over one pair of scans.
+struct ObjectiveSetOptions {
+  MatchingOptions matching;  ///< Closest-point metrics.
+  LocalFitOptions line;      ///< Edge metrics.
+  LocalFitOptions patch;     ///< Planar metrics.
+  std::shared_ptr<const ceres::LossFunction> loss;
+};
+
+/// The objectives of several metrics over one pair of scans, with the matchers that they need:
+/// closest points for all source points, lines for its edge points and patches for its planar ones.
+/// Metrics of a kind share a matcher.
+class ObjectiveSet {
+ public:
+  /// The clouds must outlive the set, and have normals where a metric needs them; `features` are the
+  /// source's, and may be empty where no metric needs them. Throws UsageError for unknown metrics,
+  /// ComputationError where a metric has no source point.
+  ObjectiveSet(const PointCloud& source, const PointCloud& target, const Features& features,
+               const std::vector<std::string>& metrics, const ObjectiveSetOptions& options);
+
+  const std::vector<Objective>& objectives() const { return objectives_; }
+
+ private:
+  const Matcher& MatcherFor(const std::string& metric, const PointCloud& source,
+                            const PointCloud& target, const Features& features,
+                            const ObjectiveSetOptions& options);
+
+  // On the heap: the matchers refer to them, and a set may be moved.
+  std::unique_ptr<PointCloud> edges_;
+  std::unique_ptr<PointCloud> planar_;
+  std::unique_ptr<Matcher> points_;
+  std::unique_ptr<Matcher> lines_;
+  std::unique_ptr<Matcher> patches_;
+  std::vector<Objective> objectives_;
+};
+
+}  // namespace icpscape
+
+#endif  // ICPSCAPE_SRC_OBJECTIVE_OBJECTIVE_SET_H_
