@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "apps/app.h"
 
+#include <fcntl.h>
 #include <gflags/gflags.h>
 #include <glog/logging.h>
 #include <spawn.h>
@@ -134,7 +135,7 @@ void Progress::Show(int done) {
   }
 }
 
-void RunPlotScript(const std::string& script, const std::vector<std::string>& arguments) {
+bool RunPlotScript(const std::string& script, const std::vector<std::string>& arguments) {
   // Debian's matplotlib belongs to Debian's Python, which need not be the first on PATH.
   const std::string python =
       std::filesystem::exists("/usr/bin/python3") ? "/usr/bin/python3" : "python3";
@@ -145,15 +146,20 @@ void RunPlotScript(const std::string& script, const std::vector<std::string>& ar
     argv.push_back(word.data());
   }
   argv.push_back(nullptr);
+  posix_spawn_file_actions_t quiet;  // One warning of ours instead of Python's traceback.
+  posix_spawn_file_actions_init(&quiet);
+  posix_spawn_file_actions_addopen(&quiet, STDERR_FILENO, "/dev/null", O_WRONLY, 0);
   pid_t pid = 0;
   int status = -1;
-  if (posix_spawnp(&pid, python.c_str(), nullptr, nullptr, argv.data(), environ) == 0) {
+  if (posix_spawnp(&pid, python.c_str(), &quiet, nullptr, argv.data(), environ) == 0) {
     waitpid(pid, &status, 0);
   }
+  posix_spawn_file_actions_destroy(&quiet);
   if (status != 0) {
     LOG(WARNING) << "No figures: " << script
                  << " failed (it needs python3 with matplotlib); the tables are written.";
   }
+  return status == 0;
 }
 
 }  // namespace icpscape

@@ -42,8 +42,8 @@ class Progress {
 };
 
 /// Runs tools/SCRIPT (Python with matplotlib) on the arguments. Where that fails there is one
-/// warning, and the tables stay.
-void RunPlotScript(const std::string& script, const std::vector<std::string>& arguments);
+/// warning, the tables stay, and the answer is false.
+bool RunPlotScript(const std::string& script, const std::vector<std::string>& arguments);
 
 }  // namespace icpscape
 

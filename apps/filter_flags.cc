@@ -67,9 +67,10 @@ SE3d Estimate(const ScanPair& pair) {
 }  // namespace
 
 void CheckFilterFlags() {
-  for (const auto& [flag, value] : {std::pair("artificial_blind_spot_m", FLAGS_artificial_blind_spot_m),
-                                    std::pair("ego_filter_m", FLAGS_ego_filter_m),
-                                    std::pair("octree_voxel_m", FLAGS_octree_voxel_m)}) {
+  for (const auto& [flag, value] :
+       {std::pair("artificial_blind_spot_m", FLAGS_artificial_blind_spot_m),
+        std::pair("ego_filter_m", FLAGS_ego_filter_m),
+        std::pair("octree_voxel_m", FLAGS_octree_voxel_m)}) {
     RequireFlag(value >= 0 && std::isfinite(value), flag, Number(value), "a length in m, or 0");
   }
 }

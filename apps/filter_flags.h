@@ -10,10 +10,10 @@ namespace icpscape {
 /// Refuses what can be seen to be wrong before any file is read. Throws UsageError.
 void CheckFilterFlags();
 
-/// Applies the data filters of the flags to the pair, once, before anything else [the first stage of
-/// the paper's chain]: artificial blind spot, ego blind spot filter, Octree Correspondence Filter, in
-/// this order. Normals and features were computed before and stay with their points. Prints and
-/// records what is kept. Throws ComputationError where nothing is.
+/// Applies the data filters of the flags to the pair, once, before anything else [the first stage
+/// of the paper's chain]: artificial blind spot, ego blind spot filter, Octree Correspondence
+/// Filter, in this order. Normals and features were computed before and stay with their points.
+/// Prints and records what is kept. Throws ComputationError where nothing is.
 void FilterPair(ScanPair* pair, Manifest* manifest);
 
 }  // namespace icpscape

@@ -14,7 +14,6 @@
 #include "src/common/error.h"
 #include "src/common/text.h"
 #include "src/io/output.h"
-#include "src/minimizer/ground_truth_check.h"
 
 DEFINE_double(u_min, -1, "Start of the path; u = 0 is --initial, u = 1 the reference pose.");
 DEFINE_double(u_max, 2, "End of the path.");
@@ -68,6 +67,8 @@ void CheckFlags(const CurveOptions& options) {
   if (FLAGS_reference != "ground_truth" && FLAGS_reference != "refined") {
     throw UsageError("--reference=" + FLAGS_reference + ": expected ground_truth or refined.");
   }
+  RequireFlag(std::isfinite(FLAGS_frozen_u) && std::abs(FLAGS_frozen_u) <= 1e6, "frozen_u",
+              Number(FLAGS_frozen_u), "a number of at most 1e6");
   if (FLAGS_association != "reassociate" && FLAGS_association != "frozen") {
     throw UsageError("--association=" + FLAGS_association + ": expected reassociate or frozen.");
   }
@@ -76,17 +77,10 @@ void CheckFlags(const CurveOptions& options) {
 // Prints how far point-to-plane moves from the ground truth, and returns the pose for u = 1.
 SE3d ReferencePose(const ScanPair& pair, Manifest* manifest) {
   const SE3d truth = *pair.T_ground_truth;
-  const GroundTruthCheck check =
-      CheckGroundTruth(pair.source, pair.target, truth, ThreadsFromFlags());
-  const double degrees = check.rotation_rad * 180 / M_PI;
   std::printf("motion: %.4f m, %.4f deg\n", truth.t().norm(),
               truth.LogRotation().norm() * 180 / M_PI);
-  std::printf("ground-truth check: point-to-plane settles %.4f m, %.4f deg from it\n",
-              check.translation_m, degrees);
-  manifest->SetResult("ground_truth_check_m", check.translation_m);
-  manifest->SetResult("ground_truth_check_deg", degrees);
-  manifest->AddTiming("ground_truth_check");
-  return FLAGS_reference == "refined" ? check.T_refined : truth;
+  const auto check = GroundTruthCheckOf(pair, FLAGS_reference == "refined", manifest);
+  return FLAGS_reference == "refined" ? check->T_refined : truth;
 }
 
 void Landscape() {
@@ -125,13 +119,13 @@ void Landscape() {
 
   PrintMinima(curves, T_reference.t().norm(), &manifest);
   WriteCurves(curves, out);
-  RunPlotScript("plot_curves.py",
-                {(out / "curves.csv").string(), "--out", (out / "landscape").string(), "--title",
-                 pair.title + " (" + association + ")"});
+  const bool drawn = RunPlotScript(
+      "plot_curves.py", {(out / "curves.csv").string(), "--out", (out / "landscape").string(),
+                         "--title", pair.title + " (" + association + ")"});
   manifest.AddTiming("figures");
   manifest.Write(out / "manifest.json");
-  std::cout << "written: " << (out / "curves.csv").string() << ", landscape.svg, landscape.png, "
-            << "manifest.json\n";
+  std::cout << "written: " << (out / "curves.csv").string()
+            << (drawn ? ", landscape.svg, landscape.png" : "") << ", manifest.json\n";
 }
 
 }  // namespace

@@ -38,7 +38,8 @@ DEFINE_string(smoothness, "printed",
               "lio_sam (range differences).");
 DEFINE_string(smoothness_neighborhood, "ring",
               "Points that surround a point: ring (LOAM, A-LOAM), k_nearest or radius.");
-DEFINE_int32(ring_points_per_side, 5, "Of ring: points to either side (A-LOAM; none in the paper).");
+DEFINE_int32(ring_points_per_side, 5,
+             "Of ring: points to either side (A-LOAM; none in the paper).");
 DEFINE_int32(smoothness_neighbors, 10, "Of k_nearest: other points.");
 DEFINE_double(smoothness_radius_m, 0.5, "Of radius (m).");
 DEFINE_double(planar_below, NAN,
@@ -71,8 +72,7 @@ namespace icpscape {
 namespace {
 
 double AtLeastZero(const char* flag, double value) {
-  RequireFlag(value >= 0 && std::isfinite(value), flag, Number(value),
-              "a number of at least 0");
+  RequireFlag(value >= 0 && std::isfinite(value), flag, Number(value), "a number of at least 0");
   return value;
 }
 
@@ -136,8 +136,7 @@ ObjectiveSetOptions ObjectiveSetFromFlags() {
   options.loss = MakeLoss(FLAGS_loss, FLAGS_loss_scale_m);
   RequireFlag(FLAGS_fit_neighbors >= 3, "fit_neighbors", std::to_string(FLAGS_fit_neighbors),
               "at least 3");
-  RequireFlag(FLAGS_patch_leg_m > 0, "patch_leg_m", Number(FLAGS_patch_leg_m),
-              "a positive length");
+  RequireFlag(FLAGS_patch_leg_m > 0, "patch_leg_m", Number(FLAGS_patch_leg_m), "a positive length");
   options.line.num_neighbors = FLAGS_fit_neighbors;
   options.line.eigenvalue_ratio = AtLeastZero("fit_eigenvalue_ratio", FLAGS_fit_eigenvalue_ratio);
   options.line.max_smallest_eigenvalue_m2 =

@@ -4,6 +4,7 @@
 #include <gflags/gflags.h>
 
 #include <cmath>
+#include <cstdio>
 #include <iostream>
 #include <utility>
 
@@ -180,6 +181,8 @@ void CheckPairFlags() {
       throw UsageError(
           "--frame=0: no scan comes before it; expected at least 1, or --target_frame.");
     }
+    RequireFlag(FLAGS_target_frame != FLAGS_frame, "target_frame",
+                std::to_string(FLAGS_target_frame), "another scan than --frame");
     RequireFlag(FLAGS_target_frame >= -1, "target_frame", std::to_string(FLAGS_target_frame),
                 "the number of a scan, or -1 for the one before --frame");
   } else if (FLAGS_source.empty() || FLAGS_target.empty()) {
@@ -188,8 +191,8 @@ void CheckPairFlags() {
         "--target=FILE.");
   }
   SeedFromFlags();
-  RequireFlag(FLAGS_normal_neighbors >= 3, "normal_neighbors",
-              std::to_string(FLAGS_normal_neighbors), "at least 3");
+  RequireFlag(FLAGS_normal_neighbors >= 3 && FLAGS_normal_neighbors <= 1000, "normal_neighbors",
+              std::to_string(FLAGS_normal_neighbors), "at least 3, at most 1000");
   RequireFlag(FLAGS_normal_radius_m >= 0 && std::isfinite(FLAGS_normal_radius_m), "normal_radius_m",
               Number(FLAGS_normal_radius_m), "a length in metres, or 0");
   RequireFlag(std::abs(FLAGS_elevation_correction_deg) <= 5, "elevation_correction_deg",
@@ -247,10 +250,34 @@ ScanPair LoadPair(const std::vector<std::string>& metrics, Manifest* manifest) {
   return pair;
 }
 
+std::optional<GroundTruthCheck> GroundTruthCheckOf(const ScanPair& pair, bool needed,
+                                                   Manifest* manifest) {
+  try {
+    GroundTruthCheck check =
+        CheckGroundTruth(pair.source, pair.target, *pair.T_ground_truth, ThreadsFromFlags());
+    const double degrees = check.rotation_rad * 180 / M_PI;
+    std::printf("ground-truth check: point-to-plane settles %.4f m, %.4f deg from it\n",
+                check.translation_m, degrees);
+    manifest->SetResult("ground_truth_check_m", check.translation_m);
+    manifest->SetResult("ground_truth_check_deg", degrees);
+    manifest->AddTiming("ground_truth_check");
+    return check;
+  } catch (const ComputationError& error) {
+    if (needed) {
+      throw;
+    }
+    std::cout << "ground-truth check: without an answer (" << error.what() << ")\n";
+    return std::nullopt;
+  }
+}
+
 int ThreadsFromFlags() { return FLAGS_threads > 0 ? FLAGS_threads : HardwareThreads(); }
 
 std::filesystem::path OutputFolder() {
+  RequireFlag(!FLAGS_out.empty(), "out", FLAGS_out, "a folder");
   PrepareOutputFolder(FLAGS_out);
+  // Written last: a folder with a manifest is a finished run.
+  std::filesystem::remove(std::filesystem::path(FLAGS_out) / "manifest.json");
   return FLAGS_out;
 }
 

@@ -10,6 +10,7 @@
 #include "src/cloud/features.h"
 #include "src/cloud/point_cloud.h"
 #include "src/io/manifest.h"
+#include "src/minimizer/ground_truth_check.h"
 
 namespace icpscape {
 
@@ -34,6 +35,12 @@ void CheckPairFlags();
 /// --source --target --ground_truth; estimates normals and extracts features where one of the
 /// metrics needs them, prints what was read and dropped, and records inputs and timings.
 ScanPair LoadPair(const std::vector<std::string>& metrics, Manifest* manifest);
+
+/// Checks the pair's ground truth, prints how far point-to-plane moves from it and records that.
+/// Where the check has no answer: throws ComputationError if it is `needed`, else says so and
+/// returns nothing.
+std::optional<GroundTruthCheck> GroundTruthCheckOf(const ScanPair& pair, bool needed,
+                                                   Manifest* manifest);
 
 int ThreadsFromFlags();
 /// --out, created and proved writable. Throws InputError.

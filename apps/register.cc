@@ -56,10 +56,18 @@ MinimizerOptions MinimizerFromFlags() {
     throw UsageError(
         "--loss=tolerant curves upwards: expected --reassociation=every_step with it.");
   }
+  if (options.reassociation == Reassociation::kEveryEvaluation &&
+      ObjectiveSetFromFlags().matching.Rejects()) {
+    throw UsageError(
+        "--reassociation=every_evaluation compares sums over all pairs: expected every_step where "
+        "pairs are rejected.");
+  }
   if (FLAGS_max_iterations < 1 || !(FLAGS_min_step_m >= 0) || !(FLAGS_min_step_deg >= 0)) {
     throw UsageError(
         "--max_iterations, --min_step_m, --min_step_deg: expected at least 1, 0 and 0.");
   }
+  RequireFlag(FLAGS_starts <= 1000000, "starts", std::to_string(FLAGS_starts), "at most 1e6");
+  RequireFlag(FLAGS_start_m <= 1000, "start_m", Number(FLAGS_start_m), "at most 1000");
   if (FLAGS_starts < 0 || !(FLAGS_start_m >= 0) || !(FLAGS_start_deg >= 0) ||
       !(FLAGS_start_deg < 180)) {
     throw UsageError("--starts, --start_m, --start_deg: expected at least 0, and below 180 deg.");
@@ -173,8 +181,7 @@ void Register() {
   }
   std::optional<GroundTruthCheck> check;
   if (pair.T_ground_truth) {
-    check = CheckGroundTruth(pair.source, pair.target, *pair.T_ground_truth, options.threads);
-    manifest.AddTiming("ground_truth_check");
+    check = GroundTruthCheckOf(pair, FLAGS_starts > 0, &manifest);
   }
   const PointCloud whole_source = pair.source;
   FilterPair(&pair, &manifest);
@@ -195,8 +202,10 @@ void Register() {
   manifest.SetResult("matching_passes", summary.matching_passes);
   WriteTextFile(out / "T_target_source.txt", FormatTransform(T));
   WritePly(out / "aligned.ply", whole_source.Transformed(T));
-  if (check) {
+  if (pair.T_ground_truth) {
     PrintDifference("ground truth", *pair.T_ground_truth, T);
+  }
+  if (check) {
     PrintDifference("refined reference", check->T_refined, T);
     if (FLAGS_starts > 0) {
       RunStarts(objective, check->T_refined, options, out, &manifest);

@@ -2,9 +2,9 @@
 # icpscape_version.h with the release and the commit, brought up to date at every build.
 add_custom_target(
   icpscape_version_file
-  COMMAND ${CMAKE_COMMAND} -DSOURCE_DIR=${CMAKE_SOURCE_DIR} -DRELEASE=${PROJECT_VERSION}
+  COMMAND ${CMAKE_COMMAND} -DSOURCE_DIR=${PROJECT_SOURCE_DIR} -DRELEASE=${PROJECT_VERSION}
           -DOUTPUT=${CMAKE_BINARY_DIR}/generated/icpscape_version.h -P
-          ${CMAKE_SOURCE_DIR}/cmake/write_version.cmake
+          ${PROJECT_SOURCE_DIR}/cmake/write_version.cmake
   BYPRODUCTS ${CMAKE_BINARY_DIR}/generated/icpscape_version.h
   COMMENT "Noting the version")
 add_library(icpscape_version INTERFACE)

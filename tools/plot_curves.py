@@ -7,6 +7,7 @@ samples (dots): where they part, pairs are changing from one pose to the next.
 """
 import argparse
 import csv
+import os
 from collections import defaultdict
 
 import matplotlib
@@ -51,7 +52,7 @@ def draw(curves, title):
             axes.spines[side].set_visible(False)
     top.axvline(1, color="0.4", linewidth=0.8)
     bottom.axhline(0, color="0.4", linewidth=0.8)
-    top.set_title(title, fontsize=11)
+    top.set_title(title, fontsize=11, parse_math=False)
     top.set_ylabel(r"RMSE($\epsilon$)  [m]")
     bottom.set_ylabel("dRMSE/du  [m]")
     bottom.set_xlabel("Interpolation parameter u  (0: start, 1: reference)")
@@ -70,8 +71,10 @@ def main():
     arguments = parser.parse_args()
     figure = draw(read_curves(arguments.curves), arguments.title)
     plt.rcParams["svg.hashsalt"] = "icpscape"  # The same picture is the same file.
-    figure.savefig(arguments.out + ".svg", metadata={"Date": None})
-    figure.savefig(arguments.out + ".png", dpi=150)
+    for extension, options in ((".svg", {"metadata": {"Date": None}}), (".png", {"dpi": 150})):
+        part = arguments.out + ".part" + extension
+        figure.savefig(part, **options)
+        os.replace(part, arguments.out + extension)
 
 
 if __name__ == "__main__":

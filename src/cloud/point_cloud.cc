@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "src/cloud/point_cloud.h"
 
+#include <algorithm>
 #include <cmath>
 
 namespace icpscape {
@@ -14,6 +15,9 @@ void SelectArray(const std::vector<T>& in, const std::vector<char>& keep, std::v
     }
   }
 }
+
+// Beyond any lidar, and far below where squared distances overflow.
+constexpr float kLargestCoordinateM = 1e6F;
 
 }  // namespace
 
@@ -46,7 +50,8 @@ DroppedPoints DropInvalidPoints(PointCloud* cloud) {
   std::vector<char> keep(cloud->size(), 1);
   for (std::size_t i = 0; i < cloud->size(); ++i) {
     const float x = cloud->x[i], y = cloud->y[i], z = cloud->z[i];
-    if (!std::isfinite(x) || !std::isfinite(y) || !std::isfinite(z)) {
+    const float largest = std::max({std::abs(x), std::abs(y), std::abs(z)});
+    if (std::isnan(x + y + z) || !(largest <= kLargestCoordinateM)) {
       ++dropped.non_finite;
       keep[i] = 0;
     } else if (x == 0 && y == 0 && z == 0) {

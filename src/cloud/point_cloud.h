@@ -41,7 +41,7 @@ struct PointCloud {
 
 /// What a reader left out, and why.
 struct DroppedPoints {
-  std::size_t non_finite = 0;  ///< A coordinate was NaN or infinite.
+  std::size_t non_finite = 0;  ///< A coordinate was NaN, infinite or beyond 1000 km.
   std::size_t zero = 0;        ///< (0, 0, 0): how many sensors write "no return".
 };
 

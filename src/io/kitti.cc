@@ -143,8 +143,14 @@ std::vector<SE3d> ReadKittiPoses(const std::filesystem::path& path) {
   std::ifstream in = Open(path, "a KITTI pose file");
   std::vector<SE3d> poses;
   std::string line;
+  int blank = 0;  // A blank line is fine at the end; between rows it would shift the frames.
   for (int number = 1; std::getline(in, line); ++number) {
-    if (line.find_first_not_of(" \t\r") != std::string::npos) {
+    if (line.find_first_not_of(" \t\r") == std::string::npos) {
+      blank = blank == 0 ? number : blank;
+    } else if (blank > 0) {
+      throw InputError(path.string() + ":" + std::to_string(blank) +
+                       ": a blank line; expected a row of 12 numbers per frame.");
+    } else {
       poses.push_back(ParseTransform(line, path.string() + ":" + std::to_string(number)));
     }
   }

@@ -9,12 +9,12 @@
 #include <pcl/io/ply_io.h>
 #include <pcl/point_types.h>
 
-#include <fstream>
 #include <string>
 
 #include "src/common/error.h"
 #include "src/io/kitti.h"
 #include "src/io/output.h"
+#include "src/io/point_file_header.h"
 
 namespace icpscape {
 namespace {
@@ -57,43 +57,12 @@ bool IsFloat(const pcl::PCLPointCloud2& blob, const std::string& name) {
          blob.fields[static_cast<std::size_t>(index)].datatype == pcl::PCLPointField::FLOAT32;
 }
 
-// PCL's readers run off the end of files that are not what they claim (as of 1.13), so what they
-// rely on is looked at first: the header's end, and for binary PCD the bytes that it promises.
-bool LooksWhole(const std::filesystem::path& path, bool ply) {
-  std::ifstream in(path, std::ios::binary);
-  std::string head(1U << 16U, '\0');
-  in.read(head.data(), static_cast<std::streamsize>(head.size()));
-  head.resize(static_cast<std::size_t>(in.gcount()));
-  if (ply) {
-    return head.rfind("ply", 0) == 0 && head.find("\nelement vertex ") != std::string::npos &&
-           head.find("end_header") != std::string::npos;
-  }
-  for (const char* line :
-       {"FIELDS ", "SIZE ", "TYPE ", "WIDTH ", "HEIGHT ", "POINTS ", "\nDATA "}) {
-    if (head.find(line) == std::string::npos) {
-      return false;
-    }
-  }
-  pcl::PCLPointCloud2 blob;
-  Eigen::Vector4f origin;
-  Eigen::Quaternionf orientation;
-  int version = 0;
-  int encoding = 0;
-  unsigned data_begin = 0;
-  const int status = pcl::PCDReader().readHeader(path.string(), blob, origin, orientation, version,
-                                                 encoding, data_begin);
-  constexpr int kBinary = 1;
-  const std::uintmax_t promised =
-      data_begin + static_cast<std::uintmax_t>(blob.width) * blob.height * blob.point_step;
-  return status >= 0 && (encoding != kBinary || promised <= std::filesystem::file_size(path));
-}
-
 PointCloud ReadWithPcl(const std::filesystem::path& path, bool ply) {
   pcl::PCLPointCloud2 blob;
   int status = -1;
   try {
     const QuietPcl quiet;
-    if (LooksWhole(path, ply)) {
+    if (ply ? PlyHeaderIsSound(path) : PcdHeaderIsSound(path)) {
       status = ply ? pcl::PLYReader().read(path.string(), blob)
                    : pcl::PCDReader().read(path.string(), blob);
     }

@@ -53,12 +53,13 @@ const CurvePoint& Curve::Minimum() const {
 }
 
 void CurveOptions::Check() const {
-  if (samples < 2) {
-    throw UsageError("samples " + std::to_string(samples) + ": expected at least 2.");
+  constexpr int kMostSamples = 1000000;
+  if (samples < 2 || samples > kMostSamples) {
+    throw UsageError("samples " + std::to_string(samples) + ": expected at least 2, at most 1e6.");
   }
-  if (!(std::isfinite(u_min) && std::isfinite(u_max) && u_min < u_max)) {
+  if (!(std::abs(u_min) <= 1e6 && std::abs(u_max) <= 1e6 && u_min < u_max)) {
     throw UsageError("u from " + Number(u_min) + " to " + Number(u_max) +
-                     ": expected u_min below u_max.");
+                     ": expected u_min below u_max, within 1e6.");
   }
 }
 

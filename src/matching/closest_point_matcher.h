@@ -26,6 +26,12 @@ struct MatchingOptions {
   double kept_fraction = 1;
   /// Drops large regions of the source whose mean distance stands out.
   std::optional<RegionOptions> regions = std::nullopt;
+
+  /// Whether the number of pairs can change from pose to pose.
+  bool Rejects() const {
+    return max_distance_m > 0 || reciprocal_epsilon_m || max_normal_angle_rad > 0 ||
+           max_median_factor > 0 || kept_fraction < 1 || regions;
+  }
 };
 
 /// Closest-point correspondences p -> q [paper sec. 2]: for every source point the nearest target

@@ -16,7 +16,8 @@ const std::vector<std::string>& EigenvalueScaleNames() {
 }
 
 EigenvalueScale EigenvalueScaleFromName(const std::string& name) {
-  return static_cast<EigenvalueScale>(IndexOfName("eigenvalue scale", name, EigenvalueScaleNames()));
+  return static_cast<EigenvalueScale>(
+      IndexOfName("eigenvalue scale", name, EigenvalueScaleNames()));
 }
 
 const std::vector<std::string>& FitAnchorNames() {

@@ -48,9 +48,7 @@ class LocalFitMatcher final : public Matcher {
   LocalFitMatcher(Shape shape, const PointCloud& source, const PointCloud& target,
                   const LocalFitOptions& options = {});
 
-  unsigned Provides() const override {
-    return shape_ == Shape::kLine ? kTargetLine : kTargetPatch;
-  }
+  unsigned Provides() const override { return shape_ == Shape::kLine ? kTargetLine : kTargetPatch; }
   void Match(const SE3d& T_target_source, int threads, Matches* matches) const override;
 
  private:

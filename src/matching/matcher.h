@@ -28,8 +28,8 @@ struct Matches {
   std::size_t Count() const;
 };
 
-/// Stage three of the chain [paper fig. 1]: pairs the points of a source with something in a target,
-/// for a given pose.
+/// Stage three of the chain [paper fig. 1]: pairs the points of a source with something in a
+/// target, for a given pose.
 class Matcher {
  public:
   /// The clouds must outlive the matcher.
@@ -54,8 +54,7 @@ class Matcher {
 };
 
 /// T p as the neighbour search takes it: moved in double, rounded to float once.
-inline Eigen::Vector3f Query(const SE3d& T_target_source, const PointCloud& source,
-                             std::size_t i) {
+inline Eigen::Vector3f Query(const SE3d& T_target_source, const PointCloud& source, std::size_t i) {
   return (T_target_source * source.Point(i)).cast<float>();
 }
 

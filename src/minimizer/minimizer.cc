@@ -81,10 +81,15 @@ class Loop {
     summary_.iterates.push_back(iterate);
   }
 
-  // Whether the last recorded step ends the loop.
-  bool Converged() const {
+  // Whether the last recorded step was short enough to end the loop.
+  bool ShortStep() const {
     return summary_.iterates.size() > 1 && summary_.iterates.back().step_m < options_.min_step_m &&
            summary_.iterates.back().step_rad < options_.min_step_rad;
+  }
+  // A step that is short because longer ones were rejected before it is no convergence.
+  MinimizerSummary EndShortStep(int rejected) {
+    return rejected == 0 ? End(Termination::kConverged, "The last step was shorter than the limit.")
+                         : EndNoDescent();
   }
 
   MinimizerSummary End(Termination termination, std::string message) {
@@ -97,13 +102,15 @@ class Loop {
                                                     std::to_string(summary_.iterates.size()) +
                                                     " iterates.");
   }
+  MinimizerSummary EndFlat() {
+    return End(Termination::kFailure,
+               "Every pair is an outlier under the loss, which is flat there; expected a larger "
+               "scale or a better start.");
+  }
   MinimizerSummary EndMaxIterations() {
     return End(
         Termination::kMaxIterations,
         "The limit of " + std::to_string(options_.max_iterations) + " iterations was reached.");
-  }
-  MinimizerSummary EndConverged() {
-    return End(Termination::kConverged, "The last step was shorter than the limit.");
   }
   MinimizerSummary EndNoDescent() {
     return End(Termination::kNoDescent, "No step lowered the cost any further.");
@@ -131,13 +138,23 @@ class FunctionCallback final : public ceres::IterationCallback {
   Function function_;
 };
 
-// One Ceres step on frozen matches; false where no step lowers the frozen cost.
-bool Step(const JointObjective& objective, const Loop& loop, const std::vector<Matches>& matches,
-          const Evaluation& at_start, Parameters* x, std::string* failure) {
+bool Flat(const Evaluation& evaluation) {
+  return evaluation.sums.cost > 0 && evaluation.sums.hessian.trace() == 0;
+}
+
+struct StepResult {
+  bool accepted = false;  // False where no step lowers the frozen cost.
+  int rejected = 0;       // Steps that were too long, before the one that was accepted.
+  std::string failure;    // Not empty where Ceres gave up.
+};
+
+// One Ceres step on frozen matches.
+StepResult Step(const JointObjective& objective, const Loop& loop,
+                const std::vector<Matches>& matches, const Evaluation& at_start, Parameters* x) {
   ceres::Problem problem(UnownedLoss());
   ceres::Solver::Options options = SolverOptions();
   problem.AddParameterBlock(x->data(), 7, new SE3Manifold);
-  if (at_start.sums.upward_loss) {
+  if (objective.HasUpwardLoss()) {
     objective.AddResidualBlocks(matches, x->data(), &problem);
     options.num_threads = std::min(loop.options().threads, HardwareThreads());
   } else {
@@ -158,14 +175,17 @@ bool Step(const JointObjective& objective, const Loop& loop, const std::vector<M
   options.callbacks.push_back(&stop_after_first_step);
   ceres::Solver::Summary summary;
   ceres::Solve(options, &problem, &summary);
+  StepResult result;
   if (summary.termination_type == ceres::FAILURE) {
-    *failure = summary.message;
+    result.failure = summary.message;
   }
-  // num_successful_steps counts the start.
-  return summary.num_successful_steps > 1;
+  result.accepted = summary.num_successful_steps > 1;  // The start counts as one.
+  result.rejected = summary.num_unsuccessful_steps;
+  return result;
 }
 
 MinimizerSummary MinimizeEveryStep(const JointObjective& objective, Parameters x, Loop loop) {
+  StepResult step;
   for (int iteration = 0;; ++iteration) {
     const SE3d T = SE3d::FromParameters(x.data());
     std::vector<Matches> matches;
@@ -173,19 +193,23 @@ MinimizerSummary MinimizeEveryStep(const JointObjective& objective, Parameters x
     if (evaluation.n() == 0) {
       return loop.EndNoCorrespondences();
     }
-    if (iteration == 0 && evaluation.sums.upward_loss) {
+    if (iteration == 0 && objective.HasUpwardLoss()) {
       LOG(WARNING) << "The loss curves upwards: one residual block per pair, which is slow.";
     }
     loop.Record(T, evaluation);
-    if (loop.Converged()) {
-      return loop.EndConverged();
+    if (Flat(evaluation)) {
+      return loop.EndFlat();
+    }
+    if (loop.ShortStep()) {
+      return loop.EndShortStep(step.rejected);
     }
     if (iteration == loop.options().max_iterations) {
       return loop.EndMaxIterations();
     }
-    std::string failure;
-    if (!Step(objective, loop, matches, evaluation, &x, &failure)) {
-      return failure.empty() ? loop.EndNoDescent() : loop.End(Termination::kFailure, failure);
+    step = Step(objective, loop, matches, evaluation, &x);
+    if (!step.accepted) {
+      return step.failure.empty() ? loop.EndNoDescent()
+                                  : loop.End(Termination::kFailure, step.failure);
     }
   }
 }
@@ -202,6 +226,10 @@ MinimizerSummary MinimizeEveryEvaluation(Parameters x, Loop loop) {
   evaluate(SE3d::FromParameters(x.data()));
   if (last.evaluation.n() == 0) {
     return loop.EndNoCorrespondences();
+  }
+  if (Flat(last.evaluation)) {
+    loop.Record(last.T, last.evaluation);
+    return loop.EndFlat();
   }
   bool first = true;
   ceres::Problem problem;
@@ -221,14 +249,18 @@ MinimizerSummary MinimizeEveryEvaluation(Parameters x, Loop loop) {
   ceres::Solver::Options options = SolverOptions();
   options.max_num_iterations = loop.options().max_iterations;
   options.use_nonmonotonic_steps = true;
+  int rejected = 0;
   FunctionCallback record([&](const ceres::IterationSummary& iteration) {
     // The problem's own parameters are the best so far, not the current ones: under non-monotone
     // steps these are the pose evaluated last.
     if (iteration.iteration == 0 || iteration.step_is_successful) {
       loop.Record(last.T, last.evaluation);
-      if (loop.Converged()) {
+      if (loop.ShortStep()) {
         return ceres::SOLVER_TERMINATE_SUCCESSFULLY;
       }
+      rejected = 0;
+    } else {
+      ++rejected;
     }
     return ceres::SOLVER_CONTINUE;
   });
@@ -240,14 +272,14 @@ MinimizerSummary MinimizeEveryEvaluation(Parameters x, Loop loop) {
   if (iterates->empty()) {
     return loop.End(Termination::kFailure, summary.message);
   }
-  const bool converged = loop.Converged();
+  const bool short_step = loop.ShortStep();
   // Ceres returns the pose of least cost: what came after it was an excursion.
   const auto best =
       std::min_element(iterates->begin(), iterates->end(),
                        [](const Iterate& a, const Iterate& b) { return a.cost < b.cost; });
   iterates->erase(best + 1, iterates->end());
-  if (converged) {
-    return loop.EndConverged();
+  if (short_step) {
+    return loop.EndShortStep(rejected);
   }
   switch (summary.termination_type) {
     case ceres::NO_CONVERGENCE:

@@ -13,7 +13,8 @@ namespace icpscape {
 /// compare the costs of two different objectives.
 enum class Reassociation {
   /// One Solve whose every evaluated pose is matched anew, with non-monotone steps: what is
-  /// minimised is the re-associated objective itself.
+  /// minimised is the re-associated objective itself. Not for matchers that reject: where n changes
+  /// from pose to pose, sums over n pairs cannot be compared (kNoDescent is how that ends).
   kEveryEvaluation,
   /// One Ceres step on frozen matches, then match again: ICP as it is written in textbooks.
   kEveryStep,
@@ -43,7 +44,7 @@ struct Iterate {
 
 enum class Termination {
   kConverged,          ///< The last step was short enough.
-  kNoDescent,          ///< No step along the model lowered the cost.
+  kNoDescent,          ///< No step along the model lowered the cost, or only a vanishing one.
   kMaxIterations,      ///< The limit on iterations was reached.
   kNoCorrespondences,  ///< A pose had no usable pair.
   kFailure,            ///< The solver gave up; the message says why.

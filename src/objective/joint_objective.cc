@@ -4,6 +4,7 @@
 #include <ceres/loss_function.h>
 #include <glog/logging.h>
 
+#include <algorithm>
 #include <utility>
 
 #include "src/common/error.h"
@@ -57,6 +58,11 @@ Evaluation JointObjective::Evaluate(const SE3d& T_target_source,
     sum.Add(terms_[k].objective->Evaluate(T_target_source, matches[k], threads), terms_[k].weight);
   }
   return sum;
+}
+
+bool JointObjective::HasUpwardLoss() const {
+  return std::any_of(terms_.begin(), terms_.end(),
+                     [](const Term& term) { return term.objective->HasUpwardLoss(); });
 }
 
 void JointObjective::AddResidualBlocks(const std::vector<Matches>& matches, double* x,

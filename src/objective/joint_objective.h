@@ -40,6 +40,9 @@ class JointObjective {
     return Evaluate(T_target_source, Match(T_target_source, threads), threads);
   }
 
+  /// Whether one of the losses has rho'' > 0 somewhere.
+  bool HasUpwardLoss() const;
+
   /// As Objective::AddResidualBlocks; the losses belong to this object.
   void AddResidualBlocks(const std::vector<Matches>& matches, double* x,
                          ceres::Problem* problem) const;

@@ -15,8 +15,8 @@ const std::vector<std::string>& LossNames() {
 }
 
 std::shared_ptr<const ceres::LossFunction> MakeLoss(const std::string& name, double scale_m) {
-  if (!(scale_m > 0)) {
-    throw UsageError("loss scale " + Number(scale_m) + " m: expected a positive length.");
+  if (!(scale_m >= 1e-6 && scale_m <= 1e6)) {
+    throw UsageError("loss scale " + Number(scale_m) + " m: expected 1e-6 to 1e6.");
   }
   if (name == "none") {
     return nullptr;

@@ -18,7 +18,7 @@ const std::vector<std::string>& LossNames();
 
 /// The Ceres loss rho of that name; null for "none". rho acts on |r|^2, `scale_m` on |r| (m): where
 /// the loss starts to bend (for tolerant: where it starts to count, with a width of a tenth of it).
-/// Throws UsageError for an unknown name or a scale that is not positive.
+/// Throws UsageError for an unknown name or a scale outside 1e-6 to 1e6 m.
 std::shared_ptr<const ceres::LossFunction> MakeLoss(const std::string& name, double scale_m);
 
 }  // namespace icpscape

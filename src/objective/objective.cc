@@ -188,6 +188,17 @@ void Objective::AddResidualBlocks(const Matches& matches, const ceres::LossFunct
   functions_->add_blocks(*matcher_, matches, loss, x, problem);
 }
 
+bool Objective::HasUpwardLoss() const {
+  for (int i = 0; loss_ != nullptr && i <= 24 * 64; ++i) {
+    double rho[3];
+    loss_->Evaluate(std::pow(10.0, -12 + i / 64.0), rho);
+    if (rho[2] > 0) {
+      return true;
+    }
+  }
+  return false;
+}
+
 void CheckMetricName(const std::string& metric) {
   if (!WithMetric(metric, [](auto) {})) {
     std::vector<std::string> known;

@@ -71,6 +71,9 @@ class Objective {
   void AddResidualBlocks(const Matches& matches, const ceres::LossFunction* loss, double* x,
                          ceres::Problem* problem) const;
 
+  /// Whether the loss has rho'' > 0 somewhere (found by sampling s from 1e-12 to 1e12 m^2).
+  bool HasUpwardLoss() const;
+
   /// Null for none.
   const ceres::LossFunction* loss() const { return loss_.get(); }
 

@@ -36,8 +36,8 @@ const Matcher& ObjectiveSet::MatcherFor(const std::string& metric, const PointCl
   if ((needs & kTargetPatch) != 0) {
     if (!patches_) {
       planar_ = std::make_unique<PointCloud>(source.Select(features.planar));
-      patches_ = std::make_unique<LocalFitMatcher>(LocalFitMatcher::Shape::kPatch, *planar_,
-                                                   target, options.patch);
+      patches_ = std::make_unique<LocalFitMatcher>(LocalFitMatcher::Shape::kPatch, *planar_, target,
+                                                   options.patch);
     }
     return *patches_;
   }

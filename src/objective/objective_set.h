@@ -29,9 +29,9 @@ struct ObjectiveSetOptions {
 /// Metrics of a kind share a matcher.
 class ObjectiveSet {
  public:
-  /// The clouds must outlive the set, and have normals where a metric needs them; `features` are the
-  /// source's, and may be empty where no metric needs them. Throws UsageError for unknown metrics,
-  /// ComputationError where a metric has no source point.
+  /// The clouds must outlive the set, and have normals where a metric needs them; `features` are
+  /// the source's, and may be empty where no metric needs them. Throws UsageError for unknown
+  /// metrics, ComputationError where a metric has no source point.
   ObjectiveSet(const PointCloud& source, const PointCloud& target, const Features& features,
                const std::vector<std::string>& metrics, const ObjectiveSetOptions& options);
 

@@ -187,10 +187,90 @@ TEST_F(Apps, RegisterFindsTheMotionAndItsCostIsTheLandscapes) {
   EXPECT_NEAR(landscape, std::stod(cost), 1e-12 * landscape);
 }
 
-TEST_F(Apps, RefinedReferenceMovesUToItsEnd) {
-  ASSERT_EQ(RunProgram("landscape", Kitti({"--reference=refined"})).code, 0);
+TEST_F(Apps, RefinedReferenceIsWhereTheClosedLoopEnds) {
+  // A truth that is 10 cm off; refined, u = 1 is where point-to-plane ends (under the check's
+  // gate).
+  const SE3d truth = ReadTransform(Path("truth.txt"));
+  folder_.Write("off.txt", FormatTransform(SE3d(truth.R(), truth.t() + Vec3(0, 0.1, 0))));
+  const auto rmse_at_1 = [&](const std::string& reference) {
+    EXPECT_EQ(RunProgram("landscape", Files({"--ground_truth=" + Path("off.txt"), "--samples=2",
+                                             "--u_min=0", "--u_max=1", "--metrics=point_to_plane",
+                                             "--reference=" + reference}))
+                  .code,
+              0);
+    return std::stod(ReadCsv(Path("out/curves.csv")).back().at("rmse"));
+  };
+  const double given = rmse_at_1("ground_truth");
   const auto manifest = nlohmann::json::parse(ReadFile(Path("out/manifest.json")));
-  EXPECT_GT(manifest["results"]["ground_truth_check_m"], 0);
+  EXPECT_NEAR(manifest["results"]["ground_truth_check_m"].get<double>(), 0.1, 0.02);
+  EXPECT_LT(rmse_at_1("refined"), 0.5 * given);
+}
+
+TEST_F(Apps, FrozenMatchesAreThoseOfTheirU) {
+  const auto cost_at_0 = [&](const std::vector<std::string>& more) {
+    auto arguments = Files({"--samples=2", "--u_min=0", "--u_max=1", "--metrics=point_to_point"});
+    arguments.insert(arguments.end(), more.begin(), more.end());
+    EXPECT_EQ(RunProgram("landscape", arguments).code, 0);
+    return std::stod(ReadCsv(Path("out/curves.csv")).front().at("cost"));
+  };
+  const double reassociated = cost_at_0({});
+  EXPECT_EQ(cost_at_0({"--association=frozen", "--frozen_u=0"}), reassociated);
+  EXPECT_GT(cost_at_0({"--association=frozen", "--frozen_u=1"}), reassociated);
+}
+
+TEST_F(Apps, InitialPoseIsTheStartAndLossIsUsed) {
+  const auto first_cost = [&](const std::vector<std::string>& more) {
+    EXPECT_EQ(RunProgram("register", Files(more)).code, 0);
+    return std::stod(ReadCsv(Path("out/iterations.csv")).front().at("cost"));
+  };
+  const double from_identity = first_cost({});
+  EXPECT_LT(first_cost({"--initial=" + Path("truth.txt")}), 0.1 * from_identity);
+  EXPECT_LT(first_cost({"--loss=huber", "--loss_scale_m=0.01"}), 0.5 * from_identity);
+}
+
+TEST_F(Apps, SeveralMetricsAreMinimisedTogether) {
+  const Outcome outcome =
+      RunProgram("register", Files({"--metrics=point_to_plane,symmetric", "--weights=1,0.25"}));
+  ASSERT_EQ(outcome.code, 0) << outcome.err;
+  const double joint = std::stod(ReadCsv(Path("out/iterations.csv")).front().at("cost"));
+  const auto single = [&](const std::string& metric) {
+    EXPECT_EQ(RunProgram("register", Files({"--metrics=" + metric})).code, 0);
+    return std::stod(ReadCsv(Path("out/iterations.csv")).front().at("cost"));
+  };
+  const double expected = single("point_to_plane") + 0.25 * single("symmetric");
+  EXPECT_NEAR(joint, expected, 1e-12 * expected);
+}
+
+TEST_F(Apps, FiltersAndFeaturesOfAScene) {
+  const Outcome outcome = RunProgram(
+      "landscape", {"--scene=highway_overtaking", "--samples=4", "--out=" + Path("out"),
+                    "--metrics=point_to_point,edge_to_line,planar_to_patch,planar_to_plane",
+                    "--artificial_blind_spot_m=5", "--ego_filter_m=5", "--octree_voxel_m=0.1",
+                    "--reciprocal", "--path=bicycle"});
+  ASSERT_EQ(outcome.code, 0) << outcome.err;
+  for (const char* says : {"edge points", "artificial_blind_spot: keeps", "ego_filter: keeps",
+                           "octree_filter: keeps"}) {
+    EXPECT_THAT(outcome.out, HasSubstr(says));
+  }
+  EXPECT_EQ(ReadCsv(Path("out/curves.csv")).size(), 16U);
+}
+
+TEST_F(Apps, GroundTruthCheckWithoutAnAnswerIsNoFailure) {
+  PointCloud sparse;  // No pair within the check's gate.
+  for (int i = 0; i < 100; ++i) {
+    testing_support::AddPoint(Vec3(5.0 * (i % 10), 5.0 * (i / 10), 0.5 * (i % 3)), &sparse);
+  }
+  WritePly(Path("target.ply"), sparse);
+  for (float& x : sparse.x) {
+    x += 2.5F;
+  }
+  WritePly(Path("source.ply"), sparse);
+  folder_.Write("truth.txt", FormatTransform(SE3d()));
+  for (const char* app : {"landscape", "register"}) {
+    const Outcome outcome = RunProgram(app, Files({"--metrics=point_to_point"}));
+    EXPECT_EQ(outcome.code, 0) << outcome.err;
+    EXPECT_THAT(outcome.out, HasSubstr("ground-truth check: without an answer"));
+  }
 }
 
 TEST_F(Apps, FlagfileWorks) {
@@ -219,7 +299,7 @@ TEST(AppsListMetrics, NamesAll) {
 }
 
 TEST_F(Apps, WrongCommandLines) {
-  ExpectRefusal(RunProgram("landscape", {}), 1, "expected --kitti_root=DIR --frame=N, or --source");
+  ExpectRefusal(RunProgram("landscape", {}), 1, "expected --scene=NAME, or --kitti_root=DIR");
   ExpectRefusal(RunProgram("landscape", Files({"stray"})), 1, "stray argument \"stray\"");
   ExpectRefusal(RunProgram("landscape", Files({"--nonsense=1"})), 1, "nonsense");
   ExpectRefusal(RunProgram("landscape", Files({"--samples=1"})), 1,
@@ -231,16 +311,31 @@ TEST_F(Apps, WrongCommandLines) {
   ExpectRefusal(RunProgram("landscape", Files({"--metrics="})), 1, "expected at least one metric");
   ExpectRefusal(RunProgram("landscape", Files({"--path=spline"})), 1, "lerp_slerp, geodesic");
   ExpectRefusal(RunProgram("landscape", Files({"--normal_neighbors=2"})), 1, "expected at least 3");
-  ExpectRefusal(RunProgram("landscape", Files({"--max_distance_m=-1"})), 1, "expected a length");
+  ExpectRefusal(RunProgram("landscape", Files({"--max_distance_m=-1"})), 1,
+                "expected a number of at least 0");
   ExpectRefusal(RunProgram("landscape", Files({"--threads=-2"})), 1, "--threads=-2");
   ExpectRefusal(RunProgram("landscape", Files({"--kitti_root=x"})), 1, "expected one of them");
   ExpectRefusal(RunProgram("landscape", {"--kitti_root=x", "--frame=0"}), 1,
                 "no scan comes before it");
   ExpectRefusal(RunProgram("landscape", {"--kitti_root=x"}), 1, "--frame=-1");
   ExpectRefusal(RunProgram("register", Files({"--loss=hubert"})), 1, "none, huber");
-  ExpectRefusal(RunProgram("register", Files({"--loss_scale_m=0", "--loss=huber"})), 1, "positive");
+  ExpectRefusal(RunProgram("register", Files({"--loss_scale_m=0", "--loss=huber"})), 1,
+                "expected 1e-6 to 1e6");
+  ExpectRefusal(RunProgram("landscape", Files({"--loss_scale_m=1e-200", "--loss=tolerant"})), 1,
+                "expected 1e-6 to 1e6");
+  ExpectRefusal(RunProgram("landscape", Files({"--frozen_u=nan"})), 1, "--frozen_u");
+  ExpectRefusal(RunProgram("landscape", Files({"--samples=2000000000"})), 1, "at most 1e6");
+  ExpectRefusal(RunProgram("landscape", Files({"--u_min=-1e308"})), 1, "within 1e6");
+  ExpectRefusal(RunProgram("landscape", Files({"--out="})), 1, "--out=: expected a folder");
+  ExpectRefusal(RunProgram("landscape", Files({"--metrics=symmetric,symmetric"})), 1,
+                "each metric");
+  ExpectRefusal(RunProgram("landscape", Kitti({"--target_frame=1"})), 1, "another scan");
+  ExpectRefusal(RunProgram("register", Files({"--start_m=inf"})), 1, "--start_m=inf");
+  ExpectRefusal(
+      RunProgram("register", Files({"--reassociation=every_evaluation", "--max_distance_m=1"})), 1,
+      "expected every_step where pairs are rejected");
+  ExpectRefusal(RunProgram("register", Files({"--weights=1,2"})), 1, "one weight per metric");
   ExpectRefusal(RunProgram("register", Files({"--reassociation=never"})), 1, "every_step");
-  ExpectRefusal(RunProgram("register", Files({"--metrics=symmetric,two_plane"})), 1, "one metric");
   ExpectRefusal(RunProgram("register", Files({"--max_iterations=0"})), 1, "--max_iterations");
   auto no_truth = Files({"--starts=5"});
   no_truth.erase(no_truth.begin() + 2);

@@ -41,6 +41,12 @@ TEST(Normals, NeighborhoodsWithoutAPlaneHaveNone) {
     AddPoint({0.25 * i, 0, 1}, &line);
   }
   EXPECT_EQ(EstimateNormals({}, 1, &line), 50U);
+  // Also where the points' coordinates round.
+  PointCloud skew;
+  for (int i = 0; i < 100; ++i) {
+    AddPoint(i * Vec3(0.1, 0.07, 0.03) + Vec3(1, 2, 3), &skew);
+  }
+  EXPECT_EQ(EstimateNormals({}, 1, &skew), 100U);
 
   PointCloud equal;
   for (int i = 0; i < 50; ++i) {

@@ -95,6 +95,10 @@ TEST(KittiPoses, RefusesBrokenFilesInOneSentence) {
   const auto torn = folder.Write("poses.txt", "1 0 0 0 0 1 0 0 0 0 1 0\n1 0 0 0 0 1 0 0\n");
   EXPECT_THAT(MessageOf<InputError>([&] { ReadKittiPoses(torn); }),
               HasSubstr("poses.txt:2: 8 numbers"));
+  const auto gap =
+      folder.Write("gap.txt", "1 0 0 0 0 1 0 0 0 0 1 0\n\n1 0 0 0 0 1 0 0 0 0 1 0\n\n");
+  EXPECT_THAT(MessageOf<InputError>([&] { ReadKittiPoses(gap); }),
+              HasSubstr("gap.txt:2: a blank line"));
   const auto words = folder.Write("poses.txt", "1 0 0 0 0 1 0 x 0 0 1 0\n");
   EXPECT_THAT(MessageOf<InputError>([&] { ReadKittiPoses(words); }),
               HasSubstr("poses.txt:1: \"x\"; expected a number"));

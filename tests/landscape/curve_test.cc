@@ -87,7 +87,7 @@ TEST(Curve, FrozenSlopesAgree) {
   }
 }
 
-TEST(Curve, NumericSlopesAreExactForAParabola) {
+TEST(Curve, SlopesAreExactForAStraightLine) {
   // One pair, point-to-point, moved along x: rmse = |u - 1|, whose slope is exactly -1 left of it.
   PointCloud source, target;
   testing_support::AddPoint({5, 0, 0}, &source);
@@ -105,6 +105,21 @@ TEST(Curve, NumericSlopesAreExactForAParabola) {
     EXPECT_NEAR(p.slope_analytic, -1, 1e-12);
     EXPECT_EQ(p.n, 1);
     EXPECT_EQ(p.inlier_ratio, 1);
+  }
+}
+
+TEST(Curve, NumericSlopesAreOfSecondOrderEverywhere) {
+  const EveryMetric all;
+  CurveOptions options;
+  options.samples = 7;
+  const double h = 0.5;
+  const Path path(SE3d(), kMotion, PathKind::kLerpSlerp);
+  for (const Curve& curve : EvaluateCurves(all.objectives, path, options)) {
+    const auto& p = curve.points;
+    EXPECT_NEAR(p[0].slope_numeric, (-1.5 * p[0].rmse + 2 * p[1].rmse - 0.5 * p[2].rmse) / h,
+                1e-12);
+    EXPECT_NEAR(p[3].slope_numeric, (p[4].rmse - p[2].rmse) / (2 * h), 1e-12);
+    EXPECT_NEAR(p[6].slope_numeric, (1.5 * p[6].rmse - 2 * p[5].rmse + 0.5 * p[4].rmse) / h, 1e-12);
   }
 }
 

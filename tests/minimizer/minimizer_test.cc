@@ -93,6 +93,10 @@ TEST_P(BothModes, RecordsStepsAndPasses) {
         summary.iterates[i].step_m,
         DistanceM(summary.iterates[i - 1].T_target_source, summary.iterates[i].T_target_source),
         1e-15);
+    EXPECT_NEAR(summary.iterates[i].step_rad,
+                AngleRad(summary.iterates[i - 1].T_target_source,
+                         summary.iterates[i].T_target_source),
+                1e-15);
     EXPECT_GE(summary.iterates[i].time_s, summary.iterates[i - 1].time_s);
   }
   EXPECT_GE(summary.matching_passes, static_cast<int>(summary.iterates.size()));
@@ -151,6 +155,51 @@ INSTANTIATE_TEST_SUITE_P(Minimizer, BothModes,
                                                                           : "EveryEvaluation";
                          });
 
+// With a gate n changes from pose to pose. Whatever the modes make of that, a step that is short
+// only because longer ones were rejected must not be called convergence.
+TEST(Minimizer, GatedStepsEndAtTheMotion) {
+  const ClosestPointMatcher matcher(Room().source, Room().target, {0.5});
+  const Objective objective("point_to_plane", matcher);
+  const MinimizerSummary summary = Minimize(objective, SE3d(), {});
+  EXPECT_EQ(summary.termination, Termination::kConverged);
+  EXPECT_LT(DistanceM(kMotion, summary.T_target_source()), 0.01);
+  MinimizerOptions every_evaluation;
+  every_evaluation.reassociation = Reassociation::kEveryEvaluation;
+  for (const double gate : {0.1, 0.2, 0.3, 0.5}) {
+    const ClosestPointMatcher tight(Room().source, Room().target, {gate});
+    const MinimizerSummary end =
+        Minimize(Objective("point_to_plane", tight), SE3d(), every_evaluation);
+    if (end.termination == Termination::kConverged) {
+      EXPECT_LT(DistanceM(kMotion, end.T_target_source()), 0.05) << "gate " << gate;
+    }
+  }
+}
+
+TEST_P(BothModes, SaysWhenEveryPairIsAnOutlier) {
+  const ClosestPointMatcher matcher(Room().source, Room().target);
+  const Objective objective("point_to_point", matcher, MakeLoss("tukey", 1e-6));
+  const MinimizerSummary summary =
+      Minimize(objective, SE3d(Mat3::Identity(), Vec3(3, 0, 0)), Options());
+  EXPECT_EQ(summary.termination, Termination::kFailure);
+  EXPECT_FALSE(summary.Usable());
+}
+
+// From a start where every residual is saturated the loss is as upward as elsewhere.
+TEST(Minimizer, TolerantLossFromFarAway) {
+  PointCloud source, target;
+  for (int i = 0; i < 100; ++i) {
+    const Vec3 p(i % 10, i / 10, 0.1 * ((i * 7) % 13));
+    testing_support::AddPoint(3 * p, &target);
+    testing_support::AddPoint(3 * p + Vec3(0.5, 0.5, 0), &source);
+  }
+  const ClosestPointMatcher matcher(source, target);
+  const Objective objective("point_to_point", matcher, MakeLoss("tolerant", 0.1));
+  const MinimizerSummary summary = Minimize(objective, SE3d(), {});
+  ASSERT_TRUE(summary.Usable()) << summary.message;
+  EXPECT_LT(DistanceM(SE3d(Mat3::Identity(), Vec3(-0.5, -0.5, 0)), summary.T_target_source()),
+            0.15);
+}
+
 // Besl and McKay: point-to-point ICP never raises its cost.
 TEST(Minimizer, PointToPointDescendsMonotonically) {
   const ClosestPointMatcher matcher(Room().source, Room().target);
@@ -196,6 +245,21 @@ TEST(RandomStarts, StayWithinTheirLimitsAndRepeat) {
   EXPECT_EQ(starts[7].Matrix(), RandomStarts(kMotion, options)[7].Matrix());
   options.seed = 2;
   EXPECT_NE(starts[7].Matrix(), RandomStarts(kMotion, options)[7].Matrix());
+}
+
+TEST(RandomStarts, CountFailures) {
+  const ClosestPointMatcher matcher(Room().source, Room().target);
+  const Objective objective("point_to_plane", matcher);
+  RandomStartOptions options;
+  options.count = 4;
+  options.minimizer.max_iterations = 1;  // Too few to arrive from metres away.
+  options.translation_m = 5;
+  for (const StartResult& result : RunRandomStarts(objective, kMotion, options)) {
+    EXPECT_EQ(result.success, result.end_m < kSuccessM && result.end_rad < kSuccessRad);
+    if (result.start_m > 2) {
+      EXPECT_FALSE(result.success);
+    }
+  }
 }
 
 TEST(RandomStarts, SucceedInARoom) {

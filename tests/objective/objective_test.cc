@@ -81,6 +81,9 @@ TEST_P(EqualsCeres, OnFrozenMatches) {
     const CeresAnswer per_pair = EvaluateProblem(&blocks, x);
     EXPECT_NEAR(ours.sums.cost, per_pair.cost, 1e-12 * per_pair.cost);
     size = 0;
+    // By hand from the clouds, so that what the objective hands to the metric is checked too.
+    double cost = 0;
+    Vec6 gradient = Vec6::Zero();
     for (std::size_t p = 0; p < Room().source.size(); ++p) {
       WithMetric(metric, [&](auto tag) {
         Correspondence c;
@@ -98,10 +101,19 @@ TEST_P(EqualsCeres, OnFrozenMatches) {
         c.n_source = Room().source.Normal(p);
         c.n_target = Room().target.Normal(q);
         const auto m = decltype(tag)::Metric::From(c);
-        size += (m.Jacobian(T).transpose() * m.Residual(T)).norm();
+        const Vec6 term = m.Jacobian(T).transpose() * m.Residual(T);
+        double rho[3] = {m.Residual(T).squaredNorm(), 1, 0};
+        if (objective.loss() != nullptr) {
+          objective.loss()->Evaluate(rho[0], rho);
+        }
+        size += term.norm();
+        cost += 0.5 * rho[0];
+        gradient += rho[1] * term;
       });
     }
     EXPECT_LE((ours.sums.gradient - per_pair.gradient).norm(), 1e-12 * size);
+    EXPECT_NEAR(ours.sums.cost, cost, 1e-12 * cost);
+    EXPECT_LE((ours.sums.gradient - gradient).norm(), 1e-12 * size);
     if (loss_name != "tolerant") {
       ceres::Problem root;
       root.AddResidualBlock(new SquareRootCost([&](const SE3d& pose) {
@@ -145,6 +157,31 @@ TEST(Objective, ThreePairsByHand) {
   EXPECT_NEAR(evaluation.sums.Hessian()(2, 2), 1 + 4 + 9, 1e-12);
   // Going up in y by 1 per unit of u lowers the distance by as much.
   EXPECT_NEAR(evaluation.RmseSlope((Vec6() << 0, 0, 0, 0, 1, 0).finished()), -1, 1e-6);
+}
+
+// The paper's RMSE knows no loss; the cost does.
+TEST(Objective, LossBendsTheCostButNotTheRmse) {
+  const ClosestPointMatcher matcher(Room().source, Room().target);
+  const Objective plain("point_to_plane", matcher);
+  const Objective robust("point_to_plane", matcher, MakeLoss("huber", 0.005));
+  const SE3d T(Mat3::Identity(), Vec3(0.1, 0.05, 0));
+  const Matches matches = plain.Match(T, 1);
+  const Evaluation a = plain.Evaluate(T, matches, 1);
+  const Evaluation b = robust.Evaluate(T, matches, 1);
+  EXPECT_LT(b.sums.cost, 0.9 * a.sums.cost);
+  EXPECT_NEAR(b.Rmse(), a.Rmse(), 1e-12);
+  EXPECT_NEAR(b.RmsResidual(), a.RmsResidual(), 1e-12);
+  EXPECT_LE((b.epsilon_gradient - a.epsilon_gradient).norm(), 1e-10 * a.epsilon_gradient.norm());
+}
+
+TEST(Objective, KnowsWhichLossesCurveUpwards) {
+  const ClosestPointMatcher matcher(Room().source, Room().target);
+  for (const std::string& loss : LossNames()) {
+    for (const double scale : {1e-3, 0.1, 10.0}) {
+      EXPECT_EQ(Objective("point_to_plane", matcher, MakeLoss(loss, scale)).HasUpwardLoss(),
+                loss == "tolerant");
+    }
+  }
 }
 
 TEST(Objective, ReassociatedIsFrozenWithItsOwnMatches) {
