@@ -5,6 +5,7 @@
   tools/plot_scan.py SEQUENCE_FOLDER --scan 2 --out scan.png
 """
 import argparse
+import io
 import pathlib
 import sys
 
@@ -13,6 +14,7 @@ import matplotlib
 matplotlib.use("Agg")
 import matplotlib.pyplot as plt
 import numpy as np
+from PIL import Image
 
 # SemanticKITTI's classes (src/simulation/surface.h).
 CLASSES = {
@@ -74,9 +76,9 @@ def main():
     parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
     parser.add_argument("folder", type=pathlib.Path, help="ROOT/sequences/NAME")
     parser.add_argument("--scan", type=int, default=2)
-    parser.add_argument("--out", default="scan.png")
+    parser.add_argument("--out", default="scan.png", help="picture to write (PNG)")
     parser.add_argument("--extent", type=float, default=60, help="half-width of the plan (m)")
-    parser.add_argument("--dpi", type=int, default=130)
+    parser.add_argument("--dpi", type=int, default=105)
     arguments = parser.parse_args()
     points, labels = read(arguments.folder, arguments.scan)
     figure, (above, behind) = plt.subplots(2, 1, figsize=(8, 7.6),
@@ -88,8 +90,10 @@ def main():
     figure.legend(handles=handles, ncol=6, loc="lower center", frameon=False, fontsize=8)
     above.set_title(f"{arguments.folder.name}, scan {arguments.scan}: {len(points)} points")
     figure.tight_layout(rect=(0, 0.05, 1, 1))
-    figure.savefig(arguments.out, dpi=arguments.dpi,
-                   pil_kwargs={"optimize": True} if arguments.out.endswith(".png") else None)
+    # A palette keeps the file small.
+    buffer = io.BytesIO()
+    figure.savefig(buffer, dpi=arguments.dpi, format="png")
+    Image.open(buffer).convert("RGB").quantize(32).save(arguments.out, optimize=True)
 
 
 if __name__ == "__main__":
