@@ -72,6 +72,19 @@ def perspective(axes, points, labels):
     axes.set_axis_off()
 
 
+def save_with_palette(figure, path, dpi):
+    """Writes a small PNG: the classes' colours and greys, in a few shades towards white."""
+    buffer = io.BytesIO()
+    figure.savefig(buffer, dpi=dpi, format="png")
+    colours = [colour for _, colour in CLASSES.values()] + ["#000000"]
+    shades = [np.array(matplotlib.colors.to_rgb(c)) * t + 1 - t
+              for c in colours for t in (1, 0.75, 0.5, 0.25)] + [np.ones(3)]
+    palette = Image.new("P", (1, 1))
+    palette.putpalette(np.round(255 * np.array(shades)).astype(np.uint8).ravel().tolist())
+    image = Image.open(buffer).convert("RGB")
+    image.quantize(palette=palette, dither=Image.Dither.NONE).save(path, optimize=True)
+
+
 def main():
     parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
     parser.add_argument("folder", type=pathlib.Path, help="ROOT/sequences/NAME")
@@ -90,10 +103,7 @@ def main():
     figure.legend(handles=handles, ncol=6, loc="lower center", frameon=False, fontsize=8)
     above.set_title(f"{arguments.folder.name}, scan {arguments.scan}: {len(points)} points")
     figure.tight_layout(rect=(0, 0.05, 1, 1))
-    # A palette keeps the file small.
-    buffer = io.BytesIO()
-    figure.savefig(buffer, dpi=arguments.dpi, format="png")
-    Image.open(buffer).convert("RGB").quantize(32).save(arguments.out, optimize=True)
+    save_with_palette(figure, arguments.out, arguments.dpi)
 
 
 if __name__ == "__main__":
