@@ -68,8 +68,8 @@ PointCloud Load(const std::string& role, const std::filesystem::path& path, Mani
 }
 
 void SimulateScene(ScanPair* pair, Manifest* manifest) {
-  SimulatedPair simulated = SimulatePair(FLAGS_scene, SeedFromFlags(), LidarFromFlags(),
-                                         ThreadsFromFlags());
+  SimulatedPair simulated =
+      SimulatePair(FLAGS_scene, SeedFromFlags(), LidarFromFlags(), ThreadsFromFlags());
   pair->title = "simulated " + FLAGS_scene + ", seed " + std::to_string(FLAGS_seed) +
                 ", motion of KITTI " + simulated.paper_frame;
   pair->T_ground_truth = simulated.T_target_source;
@@ -141,7 +141,8 @@ void CheckPairFlags() {
     }
     Require(FLAGS_frame >= 0, "frame", std::to_string(FLAGS_frame), "the number of a scan");
     if (FLAGS_frame == 0 && FLAGS_target_frame < 0) {
-      throw UsageError("--frame=0: no scan comes before it; expected at least 1, or --target_frame.");
+      throw UsageError(
+          "--frame=0: no scan comes before it; expected at least 1, or --target_frame.");
     }
     Require(FLAGS_target_frame >= -1, "target_frame", std::to_string(FLAGS_target_frame),
             "the number of a scan, or -1 for the one before --frame");
