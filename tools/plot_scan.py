@@ -5,6 +5,7 @@
   tools/plot_scan.py SEQUENCE_FOLDER --scan 2 --out scan.png
 """
 import argparse
+import io
 import pathlib
 import sys
 
@@ -13,6 +14,7 @@ import matplotlib
 matplotlib.use("Agg")
 import matplotlib.pyplot as plt
 import numpy as np
+from PIL import Image
 
 # SemanticKITTI's classes (src/simulation/surface.h).
 CLASSES = {
@@ -70,13 +72,26 @@ def perspective(axes, points, labels):
     axes.set_axis_off()
 
 
+def save_with_palette(figure, path, dpi):
+    """Writes a small PNG: the classes' colours and greys, in a few shades towards white."""
+    buffer = io.BytesIO()
+    figure.savefig(buffer, dpi=dpi, format="png")
+    colours = [colour for _, colour in CLASSES.values()] + ["#000000"]
+    shades = [np.array(matplotlib.colors.to_rgb(c)) * t + 1 - t
+              for c in colours for t in (1, 0.75, 0.5, 0.25)] + [np.ones(3)]
+    palette = Image.new("P", (1, 1))
+    palette.putpalette(np.round(255 * np.array(shades)).astype(np.uint8).ravel().tolist())
+    image = Image.open(buffer).convert("RGB")
+    image.quantize(palette=palette, dither=Image.Dither.NONE).save(path, optimize=True)
+
+
 def main():
     parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
     parser.add_argument("folder", type=pathlib.Path, help="ROOT/sequences/NAME")
     parser.add_argument("--scan", type=int, default=2)
-    parser.add_argument("--out", default="scan.png")
+    parser.add_argument("--out", default="scan.png", help="picture to write (PNG)")
     parser.add_argument("--extent", type=float, default=60, help="half-width of the plan (m)")
-    parser.add_argument("--dpi", type=int, default=130)
+    parser.add_argument("--dpi", type=int, default=105)
     arguments = parser.parse_args()
     points, labels = read(arguments.folder, arguments.scan)
     figure, (above, behind) = plt.subplots(2, 1, figsize=(8, 7.6),
@@ -88,8 +103,7 @@ def main():
     figure.legend(handles=handles, ncol=6, loc="lower center", frameon=False, fontsize=8)
     above.set_title(f"{arguments.folder.name}, scan {arguments.scan}: {len(points)} points")
     figure.tight_layout(rect=(0, 0.05, 1, 1))
-    figure.savefig(arguments.out, dpi=arguments.dpi,
-                   pil_kwargs={"optimize": True} if arguments.out.endswith(".png") else None)
+    save_with_palette(figure, arguments.out, arguments.dpi)
 
 
 if __name__ == "__main__":

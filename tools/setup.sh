@@ -18,8 +18,9 @@ packages=(
 for option in "$@"; do
   case "$option" in
     --with-checks) packages+=(clang-format clang-tidy) ;;
+    --with-comparison) packages+=(python3-scipy) ;;
     *)
-      echo "setup.sh: unknown option $option; expected --with-checks" >&2
+      echo "setup.sh: unknown option $option; expected --with-checks or --with-comparison" >&2
       exit 1
       ;;
   esac

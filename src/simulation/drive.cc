@@ -13,7 +13,7 @@ namespace {
 constexpr double kLaneOffsetM = 1.25;  // Of the route from the centre of its street.
 constexpr double kToleranceM = 1.0;    // Of the straight pieces from the route.
 constexpr double kCornerRad = 0.45;    // Sharper turns are crossings of two streets.
-constexpr double kSideRoadM = 30;      // How far a street goes on beyond a crossing.
+constexpr double kSideRoadM = 60;      // How far a street goes on beyond a crossing.
 constexpr double kSameStreetM = 7;     // Nearer parallel pieces belong to one street.
 
 Vec2 LeftOf(const Vec2& v) { return {-v.y(), v.x()}; }

@@ -25,11 +25,11 @@ const double kRangeExponent = std::log(120. / 50.) / std::log(0.80 / 0.10);
 constexpr double kPowerSpread = 0.3;
 const double kSpecularCosine = std::cos(8 * kRadians);
 
-// Last ring with returns, by |azimuth| in steps of 5 degrees: the median of 29 KITTI scans of four
-// drives, the two sides of the car taken together.
-constexpr std::array<int, 36> kLastRing = {56, 56, 57, 60, 63, 63, 63, 63, 63, 63, 63, 63,
+// Last ring with returns, by |azimuth| in steps of 5 degrees: measured on 57 KITTI scans of four
+// drives, the two sides of the car taken together (tools/measure_lidar.py).
+constexpr std::array<int, 36> kLastRing = {56, 56, 57, 60, 63, 63, 61, 60, 63, 63, 63, 63,
                                            63, 63, 63, 63, 63, 63, 63, 63, 63, 63, 63, 63,
-                                           63, 63, 55, 59, 61, 62, 60, 56, 52, 52, 51, 51};
+                                           63, 62, 60, 61, 63, 62, 60, 55, 50, 52, 51, 51};
 
 // Reflectivity that the receiver sees, speckle included.
 double EffectiveReflectivity(const RayHit& hit, Random* random) {
@@ -69,7 +69,8 @@ int LidarOptions::AzimuthSteps() const {
 }
 
 // Elevations and heights are fits to KITTI 07/000000, where the car stands: per ring,
-// z / rho = tan(elevation) + height / rho, residuals 0.001 to 0.004 degrees.
+// z / rho = tan(elevation) + height / rho, residuals 0.001 to 0.004 degrees
+// (tools/measure_lidar.py).
 double RingElevation(int ring) {
   return kRadians * (ring < 32 ? 1.94 - 0.3435 * ring : -9.03 - 0.515 * (ring - 32));
 }

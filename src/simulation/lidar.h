@@ -11,7 +11,7 @@ namespace icpscape {
 
 /// The spinning lidar of KITTI: a Velodyne HDL-64E on the roof of a car.
 ///
-/// "measured" means by us on KITTI's scans; docs/simulation.md has the numbers and the commands.
+/// "measured" means by tools/measure_lidar.py on KITTI's scans; docs/simulation.md has the numbers.
 struct LidarOptions {
   /// Angle between two firings, at 10 turns a second; measured 0.1794 (data sheet: 0.09 to 0.18).
   double azimuth_step_deg = 0.1794;

@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "src/simulation/buildings.h"
+#include "src/simulation/footprint.h"
 #include "src/simulation/random.h"
 #include "src/simulation/roadside.h"
 #include "src/simulation/vegetation.h"
@@ -16,38 +17,6 @@ namespace {
 constexpr double kPavementM = 0.12;       // Height of pavements,
 constexpr double kGardenM = 0.18;         // and of gardens.
 constexpr double kRouteClearanceM = 1.5;  // Half the car's width (0.91 m) and a margin.
-
-// The rectangle of a house on the ground.
-struct Footprint {
-  Vec2 origin, along, back;  // A corner and the two edges.
-
-  std::vector<Vec2> Corners() const {
-    return {origin, origin + along, origin + along + back, origin + back};
-  }
-
-  // Separating axes: two rectangles overlap unless one of their edges parts them.
-  bool Overlaps(const Footprint& other) const {
-    const std::vector<Vec2> mine = Corners();
-    const std::vector<Vec2> theirs = other.Corners();
-    for (const Vec2& axis : {along, back, other.along, other.back}) {
-      const auto range = [&axis](const std::vector<Vec2>& corners) {
-        double low = corners[0].dot(axis);
-        double high = low;
-        for (const Vec2& c : corners) {
-          low = std::min(low, c.dot(axis));
-          high = std::max(high, c.dot(axis));
-        }
-        return std::make_pair(low, high);
-      };
-      const auto [low, high] = range(mine);
-      const auto [other_low, other_high] = range(theirs);
-      if (high <= other_low || other_high <= low) {
-        return false;
-      }
-    }
-    return true;
-  }
-};
 
 class TownBuilder {
  public:
@@ -92,12 +61,8 @@ class TownBuilder {
   }
 
   bool InHouse(const Vec2& p, double margin_m) const {
-    return std::any_of(houses_.begin(), houses_.end(), [&](const Footprint& f) {
-      const double x = (p - f.origin).dot(f.along.normalized());
-      const double y = (p - f.origin).dot(f.back.normalized());
-      return x > -margin_m && x < f.along.norm() + margin_m && y > -margin_m &&
-             y < f.back.norm() + margin_m;
-    });
+    return std::any_of(houses_.begin(), houses_.end(),
+                       [&](const Footprint& f) { return f.Contains(p, margin_m); });
   }
 
   bool TryHouse(const Footprint& f) {

@@ -16,17 +16,21 @@ Vec3 UnitVector(Random* random) {
   return v / std::sqrt(squared);
 }
 
-// Leaf clusters: small quadrilaterals turned at random, denser towards the ellipsoid's surface,
-// where the light is.
+// A leaf cluster: a small quadrilateral turned at random.
+void AddLeaf(const Vec3& p, double size_m, const Surface& surface, Random* random, Mesh* mesh) {
+  const Vec3 u = UnitVector(random);
+  const Vec3 v = u.cross(UnitVector(random));
+  const double half = size_m * random->Uniform(0.3, 0.7);
+  mesh->AddQuad(p - half * u, p - half * v, p + half * u, p + half * v, surface);
+}
+
+// Leaf clusters in an ellipsoid, denser towards its surface, where the light is.
 void AddLeaves(const Vec3& centre, const Vec3& radii, int count, double size_m,
                const Surface& surface, Random* random, Mesh* mesh) {
   for (int i = 0; i < count; ++i) {
     const double depth = std::sqrt(std::sqrt(random->Uniform(0.05, 1)));
     const Vec3 p = centre + depth * radii.cwiseProduct(UnitVector(random));
-    const Vec3 u = UnitVector(random);
-    const Vec3 v = u.cross(UnitVector(random));
-    const double half = size_m * random->Uniform(0.3, 0.7);
-    mesh->AddQuad(p - half * u, p - half * v, p + half * u, p + half * v, surface);
+    AddLeaf(p, size_m, surface, random, mesh);
   }
 }
 
@@ -69,6 +73,7 @@ void AddHedge(const Vec3& a, const Vec3& b, double thickness_m, double height_m,
   const Vec3 across = Vec3::UnitZ().cross(along);
   const double length = (b - a).norm();
   constexpr double kCellM = 0.15;
+  constexpr double kTwigsPerSquareMetre = 25;
   const int columns = std::max(1, static_cast<int>(length / kCellM));
   // The outline of a section: up one face, over the top, down the other.
   const int up = std::max(1, static_cast<int>(height_m / kCellM));
@@ -92,6 +97,16 @@ void AddHedge(const Vec3& a, const Vec3& b, double thickness_m, double height_m,
            Vec3(0, 0, z + (i >= up && i <= up + over ? rough : 0));
   };
   AddPatch(rows, columns, point, leaves, mesh);
+  // Twigs stand out of the faces by up to 15 cm.
+  Random random(key);
+  const int twigs = static_cast<int>(kTwigsPerSquareMetre * 2 * length * height_m);
+  for (int i = 0; i < twigs; ++i) {
+    const double side = random.Chance(0.5) ? 1 : -1;
+    const Vec3 p = a + random.Uniform(0, length) * along +
+                   side * (0.5 * thickness_m + random.Uniform(0, 0.15)) * across +
+                   Vec3(0, 0, random.Uniform(0.1, height_m));
+    AddLeaf(p, 0.12, leaves, &random, mesh);
+  }
 }
 
 }  // namespace icpscape

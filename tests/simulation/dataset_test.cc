@@ -1,0 +1,173 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "src/simulation/dataset.h"
+
+#include <gmock/gmock.h>
+
+#include <cstdlib>
+#include <filesystem>
+#include <fstream>
+
+#include "src/common/error.h"
+#include "src/io/kitti.h"
+#include "src/simulation/scenes.h"
+
+namespace icpscape {
+namespace {
+
+namespace fs = std::filesystem;
+
+class Dataset : public ::testing::Test {
+ protected:
+  void SetUp() override {
+    const auto* info = ::testing::UnitTest::GetInstance()->current_test_info();
+    root_ = fs::path(::testing::TempDir()) / ("icpscape_dataset_" + std::string(info->name()));
+    fs::remove_all(root_);
+  }
+  void TearDown() override { fs::remove_all(root_); }
+
+  static PointCloud Cloud(int i) {
+    PointCloud cloud;
+    for (int j = 0; j < 100; ++j) {
+      cloud.x.push_back(static_cast<float>(1 + i));
+      cloud.y.push_back(static_cast<float>(j) * 0.1F);
+      cloud.z.push_back(-1.5F);
+      cloud.intensity.push_back(0.25F);
+      cloud.ring.push_back(j % 64);
+      cloud.label.push_back(252 + (j << 16));
+    }
+    return cloud;
+  }
+
+  DatasetSummary Write(const std::string& parameters = "p", int count = 3) {
+    DatasetOptions options;
+    options.root = root_;
+    options.name = "street";
+    options.parameters = parameters;
+    std::vector<SE3d> poses;
+    for (int i = 0; i < count; ++i) {
+      Vec6 xi;
+      xi << 0.01, -0.02, 0.1 * i, 2.5 * i, 0.3, 0.02 * i;
+      poses.push_back(SE3d::Exp(xi));
+    }
+    poses_ = poses;
+    return WriteDataset(options, poses, Cloud);
+  }
+
+  fs::path Sequence() const { return root_ / "sequences" / "street"; }
+
+  fs::path root_;
+  std::vector<SE3d> poses_;
+};
+
+TEST_F(Dataset, ReadsBackAsKitti) {
+  Write();
+  const KittiSequence sequence(root_, "street");
+  DroppedPoints dropped;
+  const PointCloud cloud = ReadVelodyne(sequence.ScanPath(2), &dropped);
+  const PointCloud expected = Cloud(2);
+  EXPECT_EQ(cloud.x, expected.x);
+  EXPECT_EQ(cloud.y, expected.y);
+  EXPECT_EQ(cloud.z, expected.z);
+  EXPECT_EQ(cloud.intensity, expected.intensity);
+  const SE3d truth = poses_[1].Inverse() * poses_[2];
+  EXPECT_TRUE(sequence.RelativeMotion(1, 2).Matrix().isApprox(truth.Matrix(), 1e-12));
+  EXPECT_TRUE(sequence.LidarPoses()[2].Matrix().isApprox((poses_[0].Inverse() * poses_[2]).Matrix(),
+                                                         1e-12));
+  EXPECT_EQ(fs::file_size(Sequence() / "labels" / "000002.label"), 400U);
+  EXPECT_EQ(fs::file_size(Sequence() / "rings" / "000002.ring"), 100U);
+  std::ifstream labels(Sequence() / "labels" / "000002.label", std::ios::binary);
+  std::uint32_t label[2];
+  labels.read(reinterpret_cast<char*>(label), sizeof(label));
+  EXPECT_EQ(label[1], 252U + 65536U);
+  std::ifstream times(Sequence() / "times.txt");
+  double first = -1, second = -1;
+  times >> first >> second;
+  EXPECT_EQ(first, 0);
+  EXPECT_EQ(second, 0.1);
+}
+
+TEST_F(Dataset, IsKeptUntilParametersChange) {
+  EXPECT_EQ(Write("a").simulated, 3);
+  EXPECT_EQ(Write("a").simulated, 0);
+  EXPECT_EQ(Write("a", 5).simulated, 2);  // A longer drive takes up the shorter.
+  EXPECT_EQ(Write("b").simulated, 3);
+  EXPECT_FALSE(fs::exists(Sequence() / "velodyne" / "000004.bin"));  // Nothing old is left over.
+}
+
+TEST_F(Dataset, HarmedScansAreMadeAgain) {
+  Write();
+  fs::resize_file(Sequence() / "velodyne" / "000001.bin", 100);
+  EXPECT_EQ(Write().simulated, 1);
+  EXPECT_EQ(fs::file_size(Sequence() / "velodyne" / "000001.bin"), 1600U);
+  fs::remove(Sequence() / "rings" / "000000.ring");
+  EXPECT_EQ(Write().simulated, 1);
+  fs::resize_file(Sequence() / "simulation.json", 30);
+  EXPECT_EQ(Write().simulated, 3);
+}
+
+TEST_F(Dataset, AStoppedRunIsTakenUp) {
+  DatasetOptions options;
+  options.root = root_;
+  options.name = "street";
+  options.parameters = "p";
+  const std::vector<SE3d> poses(50);
+  EXPECT_THROW(WriteDataset(options, poses,
+                            [](int i) {
+                              if (i == 45) {
+                                throw InputError("stopped");
+                              }
+                              return Cloud(i);
+                            }),
+               InputError);
+  const DatasetSummary summary = WriteDataset(options, poses, Cloud);
+  EXPECT_GE(summary.kept, 38);
+  EXPECT_EQ(summary.kept + summary.simulated, 50);
+}
+
+TEST_F(Dataset, LeavesForeignScansAlone) {
+  fs::create_directories(Sequence() / "velodyne");
+  std::ofstream(Sequence() / "velodyne" / "000000.bin") << "measured";
+  EXPECT_THROW(Write(), InputError);
+  EXPECT_EQ(fs::file_size(Sequence() / "velodyne" / "000000.bin"), 8U);
+}
+
+// Exit code of icpscape-simulate.
+int Simulate(const std::string& flags) {
+  const std::string command =
+      std::string(ICPSCAPE_BIN_DIR) + "/icpscape-simulate " + flags + " >/dev/null 2>&1";
+  return WEXITSTATUS(std::system(command.c_str()));
+}
+
+TEST_F(Dataset, TheProgramAnswersMistakesWithItsExitCode) {
+  if (!fs::exists(fs::path(ICPSCAPE_BIN_DIR) / "icpscape-simulate")) {
+    GTEST_SKIP() << "icpscape-simulate is not built";
+  }
+  const std::string out = " --out=" + root_.string();
+  EXPECT_EQ(Simulate("--scene=highway" + out), 0);
+  EXPECT_EQ(Simulate("--scene=motorway" + out), 1);
+  EXPECT_EQ(Simulate(out), 1);
+  EXPECT_EQ(Simulate("--scene=highway --dropout=2" + out), 1);
+  EXPECT_EQ(Simulate("--scene=highway --range_noise_m=-1" + out), 1);
+  EXPECT_EQ(Simulate("--scene=highway --frames=0:1" + out), 1);
+  EXPECT_EQ(Simulate("--kitti_root=. --frames=5:1" + out), 1);
+  EXPECT_EQ(Simulate("--kitti_root=. --frames=1-5" + out), 1);
+  EXPECT_EQ(Simulate("--kitti_root=/nowhere" + out), 2);
+  EXPECT_EQ(Simulate("--scene=highway --out=/proc/nowhere"), 2);
+}
+
+TEST_F(Dataset, AWrittenSceneIsTheSceneItself) {
+  if (!fs::exists(fs::path(ICPSCAPE_BIN_DIR) / "icpscape-simulate")) {
+    GTEST_SKIP() << "icpscape-simulate is not built";
+  }
+  ASSERT_EQ(Simulate("--scene=right_turn --seed=4 --out=" + root_.string()), 0);
+  const SimulatedPair pair = SimulatePair("right_turn", 4, LidarOptions(), 2);
+  const KittiSequence sequence(root_, "right_turn");
+  DroppedPoints dropped;
+  EXPECT_EQ(ReadVelodyne(sequence.ScanPath(2), &dropped).x, pair.source.x);
+  EXPECT_EQ(ReadVelodyne(sequence.ScanPath(1), &dropped).x, pair.target.x);
+  EXPECT_TRUE(sequence.RelativeMotion(1, 2).Matrix().isApprox(pair.T_target_source.Matrix(), 1e-9));
+  EXPECT_TRUE(sequence.RelativeMotion(0, 1).Matrix().isApprox(pair.T_prior.Matrix(), 1e-9));
+}
+
+}  // namespace
+}  // namespace icpscape
