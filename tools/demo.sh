@@ -1,15 +1,17 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: BSD-3-Clause
 # Installs what is missing, builds, draws the objective functions of a pair of scans and registers
-# it. Usage: tools/demo.sh --kitti_root=DIR [--sequence=00 --frame=95]
+# it. Without arguments on a simulated scene that needs no data; otherwise the arguments name the
+# input: tools/demo.sh --scene=straight_street, or --kitti_root=DIR --sequence=00 --frame=95.
 set -euo pipefail
 cd "$(dirname "$0")/.."
 tools/build.sh release
 if [ $# -eq 0 ]; then
-  echo "demo: pass --kitti_root=DIR (the KITTI odometry data, with sequences/ and poses/), for example: tools/demo.sh --kitti_root=/data/kitti --frame=95"
-  exit 0
+  set -- --scene=highway_overtaking
 fi
-build/release/bin/icpscape-landscape --sequence=00 --frame=95 "$@" --out=out/demo/landscape
-build/release/bin/icpscape-register --sequence=00 --frame=95 "$@" --out=out/demo/register
-echo "demo: the picture is $PWD/out/demo/landscape/landscape.png (and .svg)"
+echo "demo: the objective functions along the path of the motion ($*)"
+build/release/bin/icpscape-landscape "$@" --out=out/demo/landscape
+echo "demo: registration from the identity"
+build/release/bin/icpscape-register "$@" --out=out/demo/register
+echo "demo: the picture is $PWD/out/demo/landscape/landscape.png (and .svg), the tables are beside it"
 echo "demo: the aligned cloud is $PWD/out/demo/register/aligned.ply"

@@ -62,7 +62,7 @@ bool PcdHeaderIsSound(const std::filesystem::path& path) {
       continue;
     }
     static const std::array<const char*, 11> kKeywords = {
-        "VERSION", "FIELDS", "COLUMNS", "SIZE",   "TYPE", "COUNT",
+        "VERSION", "FIELDS", "COLUMNS",   "SIZE",   "TYPE", "COUNT",
         "WIDTH",   "HEIGHT", "VIEWPOINT", "POINTS", "DATA"};
     bool known = false;
     for (const char* keyword : kKeywords) {

@@ -93,10 +93,10 @@ TEST_P(BothModes, RecordsStepsAndPasses) {
         summary.iterates[i].step_m,
         DistanceM(summary.iterates[i - 1].T_target_source, summary.iterates[i].T_target_source),
         1e-15);
-    EXPECT_NEAR(summary.iterates[i].step_rad,
-                AngleRad(summary.iterates[i - 1].T_target_source,
-                         summary.iterates[i].T_target_source),
-                1e-15);
+    EXPECT_NEAR(
+        summary.iterates[i].step_rad,
+        AngleRad(summary.iterates[i - 1].T_target_source, summary.iterates[i].T_target_source),
+        1e-15);
     EXPECT_GE(summary.iterates[i].time_s, summary.iterates[i - 1].time_s);
   }
   EXPECT_GE(summary.matching_passes, static_cast<int>(summary.iterates.size()));
