@@ -121,7 +121,7 @@ void Landscape() {
   WriteCurves(curves, out);
   const bool drawn = RunPlotScript(
       "plot_curves.py", {(out / "curves.csv").string(), "--out", (out / "landscape").string(),
-                         "--title", pair.title + " (" + association + ")"});
+                         "--title", pair.title + "\n" + association});
   manifest.AddTiming("figures");
   manifest.Write(out / "manifest.json");
   std::cout << "written: " << (out / "curves.csv").string()

@@ -157,7 +157,11 @@ TEST_P(RealRings, Are64FromTopToBottom) {
 INSTANTIATE_TEST_SUITE_P(Kitti, RealRings,
                          testing::Values(Scan{"00", 0}, Scan{"00", 14}, Scan{"00", 15},
                                          Scan{"00", 94}, Scan{"00", 95}, Scan{"07", 0},
-                                         Scan{"07", 4}));
+                                         Scan{"07", 4}),
+                         [](const auto& test) {
+                           return std::string("scan_") + test.param.sequence + "_" +
+                                  std::to_string(test.param.frame);
+                         });
 
 }  // namespace
 }  // namespace icpscape
