@@ -1,13 +1,16 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <gflags/gflags.h>
 
-#include <cstdio>
+#include <algorithm>
+#include <iomanip>
+#include <iostream>
 #include <string>
+#include <vector>
 
 #include "apps/app.h"
 #include "residuals/registry.h"
 
-DEFINE_bool(markdown, false, "Print the table as Markdown, as in docs/metrics.md.");
+DEFINE_bool(markdown, false, "Print the tables as Markdown, as in docs/metrics.md.");
 
 namespace icpscape {
 namespace {
@@ -16,28 +19,94 @@ std::string NeedsText(unsigned needs) {
   std::string text = "points";
   text += (needs & kSourceNormal) != 0 ? ", source normals" : "";
   text += (needs & kTargetNormal) != 0 ? ", target normals" : "";
+  text += (needs & kTargetLine) != 0 ? ", line through neighbours" : "";
+  text += (needs & kTargetPatch) != 0 ? ", patch through neighbours" : "";
   return text;
 }
 
-void ListMetrics() {
-  const char* format =
-      FLAGS_markdown ? "| %s | %s | %s | %s | %s |\n" : "%-18s %-4s %-40s %-38s %s\n";
-  std::printf(format, "name", "rows", "residual", "needs", "source");
-  if (FLAGS_markdown) {
-    std::printf(format, "---", "---", "---", "---", "---");
+// What else the chain is made of, by the stages of the paper's figure 1 and table 1.
+struct Variant {
+  const char* stage;
+  const char* name;
+  const char* flag;
+  const char* source;
+};
+constexpr Variant kVariants[] = {
+    {"data filtering", "artificial blind spot", "--artificial_blind_spot_m", "paper sec. 4.2"},
+    {"data filtering", "ego blind spot (ego overlap) filter", "--ego_filter_m", "paper sec. 2.6"},
+    {"data filtering", "Octree Correspondence Filter", "--octree_voxel_m", "paper sec. 2.7"},
+    {"data filtering", "edge and planar points", "--smoothness", "paper sec. 2.4, LOAM"},
+    {"correspondence", "closest point", "(default)", "Besl & McKay 1992"},
+    {"correspondence", "line or patch of neighbours", "--fit_neighbors", "paper sec. 2.4, LOAM"},
+    {"correspondence", "reciprocal", "--reciprocal", "paper sec. 2.5"},
+    {"correspondence", "distance gate", "--max_distance_m", "not in the paper"},
+    {"correspondence", "normal angle", "--max_normal_angle_deg", "not in the paper"},
+    {"correspondence", "median distance", "--max_median_factor", "not in the paper"},
+    {"correspondence", "trimmed", "--kept_fraction", "not in the paper"},
+    {"correspondence", "region split", "--region_size_m", "Bengtsson & Baerveldt 1999"},
+    {"objective", "loss", "--loss", "not in the paper"},
+    {"minimiser", "matches at every step or evaluation", "--reassociation", "not in the paper"},
+};
+
+// Columns aligned for a terminal, or as Markdown.
+void PrintTable(const std::vector<std::vector<std::string>>& rows) {
+  std::vector<std::size_t> widths(rows[0].size());
+  for (const std::vector<std::string>& row : rows) {
+    for (std::size_t i = 0; i < row.size(); ++i) {
+      widths[i] = std::max(widths[i], row[i].size());
+    }
   }
+  for (std::size_t r = 0; r < rows.size(); ++r) {
+    for (std::size_t i = 0; i < rows[r].size(); ++i) {
+      if (FLAGS_markdown) {
+        std::cout << (i == 0 ? "| " : " | ") << rows[r][i];
+      } else {
+        std::cout << std::left << std::setw(static_cast<int>(widths[i]) + 2) << rows[r][i];
+      }
+    }
+    std::cout << (FLAGS_markdown ? " |\n" : "\n");
+    if (r == 0 && FLAGS_markdown) {
+      for (std::size_t i = 0; i < widths.size(); ++i) {
+        std::cout << "|---";
+      }
+      std::cout << "|\n";
+    }
+  }
+}
+
+// A formula as code; Markdown's tables want their bars escaped even there.
+std::string FormulaText(const std::string& formula) {
+  if (!FLAGS_markdown) {
+    return formula;
+  }
+  std::string text = "`";
+  for (const char c : formula) {
+    text += c == '|' ? std::string("\\|") : std::string(1, c);
+  }
+  return text + "`";
+}
+
+void ListMetrics() {
+  std::vector<std::vector<std::string>> metrics = {{"name", "rows", "residual", "needs", "source"}};
   ForEachMetric([&](auto tag) {
     using Metric = typename decltype(tag)::Metric;
-    const std::string formula =
-        FLAGS_markdown ? "`" + std::string(Metric::kFormula) + "`" : Metric::kFormula;
-    std::printf(format, Metric::kName, std::to_string(Metric::kDim).c_str(), formula.c_str(),
-                NeedsText(Metric::kNeeds).c_str(), Metric::kSource);
+    metrics.push_back({Metric::kName, std::to_string(Metric::kDim), FormulaText(Metric::kFormula),
+                       NeedsText(Metric::kNeeds), Metric::kSource});
   });
+  PrintTable(metrics);
+  std::cout << "\n";
+  std::vector<std::vector<std::string>> variants = {{"stage", "variant", "flag", "source"}};
+  for (const Variant& variant : kVariants) {
+    variants.push_back({variant.stage, variant.name, variant.flag, variant.source});
+  }
+  PrintTable(variants);
 }
 
 }  // namespace
 }  // namespace icpscape
 
 int main(int argc, char** argv) {
-  return icpscape::RunApp(argc, argv, "lists the registered metrics.", icpscape::ListMetrics);
+  return icpscape::RunApp(
+      argc, argv, "lists the registered metrics, and the variants of the chain's other stages.",
+      icpscape::ListMetrics);
 }
