@@ -23,6 +23,13 @@ DEFINE_string(path, "lerp_slerp",
               "(constant speed and steering).");
 DEFINE_string(reference, "ground_truth",
               "Pose at u = 1: ground_truth as given, or refined by point-to-plane.");
+DEFINE_string(column, "rmse",
+              "What is drawn and whose minimum is printed: rmse (sqrt(eps / n), the paper's), "
+              "rms_residual (sqrt(sum |r|^2 / n)), rmse_fixed_n (n of u = 1), epsilon, cost or "
+              "inlier_ratio. The table has all of them.");
+DEFINE_string(patch_offset, "per_term",
+              "Ones subtracted from planar_to_patch: per_term, total (one in all) or none (paper "
+              "sec. 4.2 allows the first two).");
 DEFINE_string(association, "reassociate",
               "reassociate (pairs of each pose, as in ICP) or frozen (pairs of --frozen_u).");
 DEFINE_double(frozen_u, 1, "Where the frozen pairs are taken.");
@@ -32,13 +39,13 @@ namespace {
 
 void WriteCurves(const std::vector<Curve>& curves, const std::filesystem::path& out) {
   Table csv({"metric", "u", "rmse", "rms_residual", "cost", "n", "slope_analytic", "slope_numeric",
-             "inlier_ratio"});
+             "inlier_ratio", "epsilon", "rmse_fixed_n"});
   for (const Curve& curve : curves) {
     Table pgfplots({"u", "rmse"});
     for (const CurvePoint& p : curve.points) {
       csv.AddRow({curve.metric, Number(p.u), Number(p.rmse), Number(p.rms_residual), Number(p.cost),
                   Number(p.n), Number(p.slope_analytic), Number(p.slope_numeric),
-                  Number(p.inlier_ratio)});
+                  Number(p.inlier_ratio), Number(p.epsilon), Number(p.rmse_fixed_n)});
       pgfplots.AddRow({Number(p.u), Number(p.rmse)});
     }
     pgfplots.WritePgfplots(out / (curve.metric + "_rmse.txt"));
@@ -47,11 +54,13 @@ void WriteCurves(const std::vector<Curve>& curves, const std::filesystem::path& 
 }
 
 void PrintMinima(const std::vector<Curve>& curves, double motion_m, Manifest* manifest) {
-  std::printf("%-18s %8s %14s %12s %9s\n", "metric", "argmin u", "off by (m)", "RMSE there", "n");
+  std::printf("%-18s %8s %14s %18s %9s\n", "metric", "argmin u", "off by (m)",
+              (FLAGS_column + " there").c_str(), "n");
   for (const Curve& curve : curves) {
-    const CurvePoint& minimum = curve.Minimum();
-    std::printf("%-18s %8.4f %14.4f %12.6f %9.0f\n", curve.metric.c_str(), minimum.u,
-                std::abs(minimum.u - 1) * motion_m, minimum.rmse, minimum.n);
+    const auto value = CurveColumnFromName(FLAGS_column).value;
+    const CurvePoint& minimum = curve.Minimum(value);
+    std::printf("%-18s %8.4f %14.4f %18.6f %9.0f\n", curve.metric.c_str(), minimum.u,
+                std::abs(minimum.u - 1) * motion_m, minimum.*value, minimum.n);
     manifest->SetResult("argmin_u_" + curve.metric, minimum.u);
   }
 }
@@ -64,6 +73,7 @@ void CheckFlags(const CurveOptions& options) {
   ObjectiveSetFromFlags();
   options.Check();
   PathKindFromName(FLAGS_path);
+  CurveColumnFromName(FLAGS_column);
   if (FLAGS_reference != "ground_truth" && FLAGS_reference != "refined") {
     throw UsageError("--reference=" + FLAGS_reference + ": expected ground_truth or refined.");
   }
@@ -89,6 +99,7 @@ void Landscape() {
   options.u_max = FLAGS_u_max;
   options.samples = FLAGS_samples;
   options.threads = ThreadsFromFlags();
+  options.patch_offset = PatchOffsetFromName(FLAGS_patch_offset);
   CheckFlags(options);
   const std::filesystem::path out = OutputFolder();
   const std::vector<std::string> metrics = MetricsFromFlags();
@@ -121,7 +132,7 @@ void Landscape() {
   WriteCurves(curves, out);
   const bool drawn = RunPlotScript(
       "plot_curves.py", {(out / "curves.csv").string(), "--out", (out / "landscape").string(),
-                         "--title", pair.title + "\n" + association});
+                         "--column", FLAGS_column, "--title", pair.title + "\n" + association});
   manifest.AddTiming("figures");
   manifest.Write(out / "manifest.json");
   std::cout << "written: " << (out / "curves.csv").string()

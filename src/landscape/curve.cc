@@ -30,10 +30,19 @@ void SetNumericSlopes(std::vector<CurvePoint>* points) {
   p[last].slope_numeric = (3 * p[last].rmse - 4 * p[last - 1].rmse + p[last - 2].rmse) / (2 * h);
 }
 
+// Adds back to eps what the metric's terms already leave out.
+double LeftOut(const std::string& metric, PatchOffset offset, long n) {
+  if (MetricEpsilon(metric) != Epsilon::kSoftNorm || offset == PatchOffset::kPerTerm) {
+    return 0;
+  }
+  return static_cast<double>(offset == PatchOffset::kNone ? n : n - 1);
+}
+
 CurvePoint MakePoint(double u, const Evaluation& evaluation, std::size_t num_source_points,
                      const Vec6& body_twist) {
   CurvePoint point;
   point.u = u;
+  point.epsilon = evaluation.epsilon;
   point.rmse = evaluation.Rmse();
   point.rms_residual = evaluation.RmsResidual();
   point.cost = evaluation.sums.cost;
@@ -44,12 +53,35 @@ CurvePoint MakePoint(double u, const Evaluation& evaluation, std::size_t num_sou
   return point;
 }
 
+void SetRmseOfFixedN(std::vector<CurvePoint>* points) {
+  const double n = std::min_element(points->begin(), points->end(),
+                                    [](const CurvePoint& a, const CurvePoint& b) {
+                                      return std::abs(a.u - 1) < std::abs(b.u - 1);
+                                    })
+                       ->n;
+  for (CurvePoint& point : *points) {
+    point.rmse_fixed_n = std::sqrt(point.epsilon / n);
+  }
+}
+
 }  // namespace
 
-const CurvePoint& Curve::Minimum() const {
+CurveColumn CurveColumnFromName(const std::string& name) {
+  std::vector<std::string> names;
+  for (const CurveColumn& column : kCurveColumns) {
+    names.emplace_back(column.name);
+  }
+  return kCurveColumns[IndexOfName("column", name, names)];
+}
+
+PatchOffset PatchOffsetFromName(const std::string& name) {
+  return static_cast<PatchOffset>(IndexOfName("patch offset", name, {"per_term", "total", "none"}));
+}
+
+const CurvePoint& Curve::Minimum(double CurvePoint::*value) const {
   return *std::min_element(
       points.begin(), points.end(),
-      [](const CurvePoint& a, const CurvePoint& b) { return a.rmse < b.rmse; });
+      [&](const CurvePoint& a, const CurvePoint& b) { return a.*value < b.*value; });
 }
 
 void CurveOptions::Check() const {
@@ -107,11 +139,12 @@ std::vector<Curve> EvaluateCurves(const std::vector<Objective>& objectives, cons
     for (std::size_t m = 0; m < objectives.size(); ++m) {
       const Matcher& matcher = objectives[m].matcher();
       const Matches& matches = (options.frozen_u ? frozen : own).at(&matcher);
-      const Evaluation evaluation = objectives[m].Evaluate(T_u, matches, 1);
+      Evaluation evaluation = objectives[m].Evaluate(T_u, matches, 1);
       if (evaluation.n() == 0) {
         throw ComputationError("no correspondence is left for " + objectives[m].metric() +
                                " at u = " + Number(u) + ".");
       }
+      evaluation.epsilon += LeftOut(objectives[m].metric(), options.patch_offset, evaluation.n());
       curves[m].points[i] = MakePoint(u, evaluation, matcher.source().size(), path.BodyTwist(u));
     }
     if (progress) {
@@ -121,6 +154,7 @@ std::vector<Curve> EvaluateCurves(const std::vector<Objective>& objectives, cons
   });
   for (Curve& curve : curves) {
     SetNumericSlopes(&curve.points);
+    SetRmseOfFixedN(&curve.points);
   }
   return curves;
 }

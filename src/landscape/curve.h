@@ -16,6 +16,8 @@ namespace icpscape {
 struct CurvePoint {
   double u = 0;
   double rmse = 0;            ///< sqrt(eps / n), eps as the paper prints it.
+  double epsilon = 0;         ///< eps itself.
+  double rmse_fixed_n = 0;    ///< sqrt(eps / n(u = 1)): the denominator does not move with u.
   double rms_residual = 0;    ///< sqrt(sum |r|^2 / n).
   double cost = 0;            ///< 1/2 sum rho(|r|^2), what the solver minimises.
   double n = 0;               ///< Pairs that took part.
@@ -24,13 +26,35 @@ struct CurvePoint {
   double slope_numeric = 0;   ///< d rmse / du of the plotted curve, by differences of its samples.
 };
 
+/// What a curve can be drawn over u as: the readings of the paper's RMSE(eps), and the raw sums.
+struct CurveColumn {
+  const char* name;
+  double CurvePoint::*value;
+};
+inline constexpr CurveColumn kCurveColumns[] = {
+    {"rmse", &CurvePoint::rmse},
+    {"rms_residual", &CurvePoint::rms_residual},
+    {"rmse_fixed_n", &CurvePoint::rmse_fixed_n},
+    {"epsilon", &CurvePoint::epsilon},
+    {"cost", &CurvePoint::cost},
+    {"inlier_ratio", &CurvePoint::inlier_ratio},
+};
+/// Throws UsageError for a name that is not in kCurveColumns.
+CurveColumn CurveColumnFromName(const std::string& name);
+
+/// What is subtracted from planar_to_patch's sum, "since the metric becomes one" at a match [paper
+/// sec. 4.2]: one from each term, one from the whole, or nothing.
+enum class PatchOffset { kPerTerm, kTotal, kNone };
+/// Names in the order of the enum: per_term, total, none. Throws UsageError for others.
+PatchOffset PatchOffsetFromName(const std::string& name);
+
 /// The objective of one metric along a path.
 struct Curve {
   std::string metric;
   std::vector<CurvePoint> points;
 
-  /// The sample of least rmse (the first of several); points must not be empty.
-  const CurvePoint& Minimum() const;
+  /// The sample of least value (the first of several); points must not be empty.
+  const CurvePoint& Minimum(double CurvePoint::*value = &CurvePoint::rmse) const;
 };
 
 struct CurveOptions {
@@ -40,6 +64,7 @@ struct CurveOptions {
   int threads = 1;
   /// Where set, all poses are evaluated with the matches of this u instead of being re-associated.
   std::optional<double> frozen_u;
+  PatchOffset patch_offset = PatchOffset::kPerTerm;
 
   /// Throws UsageError for fewer than two samples or an empty interval.
   void Check() const;

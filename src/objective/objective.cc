@@ -214,4 +214,11 @@ unsigned MetricNeeds(const std::string& metric) {
   return needs;
 }
 
+Epsilon MetricEpsilon(const std::string& metric) {
+  CheckMetricName(metric);
+  Epsilon epsilon = Epsilon::kSquared;
+  WithMetric(metric, [&](auto tag) { epsilon = decltype(tag)::Metric::kEpsilon; });
+  return epsilon;
+}
+
 }  // namespace icpscape

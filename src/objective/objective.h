@@ -91,6 +91,9 @@ void CheckMetricName(const std::string& metric);
 /// Union of Needs of a registered metric.
 unsigned MetricNeeds(const std::string& metric);
 
+/// What the paper sums for a registered metric.
+Epsilon MetricEpsilon(const std::string& metric);
+
 }  // namespace icpscape
 
 #endif  // ICPSCAPE_SRC_OBJECTIVE_OBJECTIVE_H_

@@ -123,6 +123,31 @@ TEST(Curve, NumericSlopesAreOfSecondOrderEverywhere) {
   }
 }
 
+TEST(Curve, ReadingsOfTheRmse) {
+  const EveryMetric all;
+  CurveOptions options;
+  options.samples = 4;  // u = -1, 0, 1, 2.
+  const Path path(SE3d(), kMotion, PathKind::kLerpSlerp);
+  const auto per_term = EvaluateCurves(all.objectives, path, options);
+  options.patch_offset = PatchOffset::kNone;
+  const auto none = EvaluateCurves(all.objectives, path, options);
+  options.patch_offset = PatchOffset::kTotal;
+  const auto total = EvaluateCurves(all.objectives, path, options);
+  for (std::size_t m = 0; m < per_term.size(); ++m) {
+    const bool patch = per_term[m].metric == "planar_to_patch";
+    for (std::size_t i = 0; i < 4; ++i) {
+      const CurvePoint& p = per_term[m].points[i];
+      EXPECT_NEAR(p.rmse, std::sqrt(p.epsilon / p.n), 1e-12);
+      EXPECT_NEAR(p.rmse_fixed_n, std::sqrt(p.epsilon / per_term[m].points[2].n), 1e-12);
+      EXPECT_NEAR(none[m].points[i].epsilon, p.epsilon + (patch ? p.n : 0), 1e-9 * p.epsilon);
+      EXPECT_NEAR(total[m].points[i].epsilon, p.epsilon + (patch ? p.n - 1 : 0), 1e-9 * p.epsilon);
+    }
+  }
+  EXPECT_EQ(CurveColumnFromName("rms_residual").value, &CurvePoint::rms_residual);
+  EXPECT_THROW(CurveColumnFromName("rsme"), UsageError);
+  EXPECT_THROW(PatchOffsetFromName("one"), UsageError);
+}
+
 TEST(Curve, IsBitIdenticalForAnyNumberOfThreads) {
   const EveryMetric all;
   const std::vector<Objective>& objectives = all.objectives;

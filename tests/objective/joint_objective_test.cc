@@ -1,0 +1,112 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "src/objective/joint_objective.h"
+
+#include <ceres/problem.h>
+#include <gtest/gtest.h>
+
+#include "residuals/adapters/ceres.h"
+#include "src/cloud/normals.h"
+#include "src/common/error.h"
+#include "src/minimizer/minimizer.h"
+#include "src/objective/loss.h"
+#include "src/objective/objective_set.h"
+#include "tests/support/scenes.h"
+
+namespace icpscape {
+namespace {
+
+struct RoomPair {
+  PointCloud source = testing_support::Room(3000, 1, SE3d(), 0.005);
+  PointCloud target = testing_support::Room(3000, 2, SE3d(), 0.005);
+  Features features;
+  RoomPair() {
+    EstimateNormals({}, 1, &source);
+    EstimateNormals({}, 1, &target);
+    for (std::size_t i = 0; i < source.size(); ++i) {
+      const bool pillar = i % 7 == 6;
+      features.edge.push_back(pillar ? 1 : 0);
+      features.planar.push_back(pillar ? 0 : 1);
+    }
+  }
+};
+
+TEST(JointObjective, IsTheWeightedSumAndWhatCeresSees) {
+  const RoomPair room;
+  ObjectiveSetOptions options;
+  options.loss = MakeLoss("huber", 0.02);
+  const ObjectiveSet set(room.source, room.target, room.features,
+                         {"edge_to_line", "planar_to_plane", "point_to_plane"}, options);
+  const auto& o = set.objectives();
+  const JointObjective joint({{&o[0], 2}, {&o[1], 0.5}, {&o[2], 1}});
+  EXPECT_EQ(joint.Name(), "edge_to_line + planar_to_plane + point_to_plane");
+  const SE3d T(Mat3::Identity(), Vec3(0.05, 0.02, 0));
+  const std::vector<Matches> matches = joint.Match(T, 1);
+  const Evaluation sum = joint.Evaluate(T, matches, 1);
+  double cost = 0;
+  Vec6 gradient = Vec6::Zero();
+  long n = 0;
+  const double weights[] = {2, 0.5, 1};
+  for (std::size_t k = 0; k < 3; ++k) {
+    const Evaluation part = o[k].Evaluate(T, 1);
+    cost += weights[k] * part.sums.cost;
+    gradient += weights[k] * part.sums.gradient;
+    n += part.n();
+  }
+  EXPECT_NEAR(sum.sums.cost, cost, 1e-12 * cost);
+  EXPECT_LE((sum.sums.gradient - gradient).norm(), 1e-12 * gradient.norm());
+  EXPECT_EQ(sum.n(), n);
+
+  double x[7];
+  T.ToParameters(x);
+  ceres::Problem::Options borrowed;
+  borrowed.loss_function_ownership = ceres::DO_NOT_TAKE_OWNERSHIP;
+  ceres::Problem problem(borrowed);
+  joint.AddResidualBlocks(matches, x, &problem);
+  problem.SetManifold(x, new SE3Manifold);
+  double ceres_cost = 0;
+  std::vector<double> ceres_gradient;
+  ASSERT_TRUE(problem.Evaluate({}, &ceres_cost, nullptr, &ceres_gradient, nullptr));
+  EXPECT_NEAR(ceres_cost, cost, 1e-12 * cost);
+  EXPECT_LE((Eigen::Map<const Vec6>(ceres_gradient.data()) - gradient).norm(), 1e-9);
+}
+
+TEST(JointObjective, EdgesAndPlanesTogetherFindTheMotion) {
+  const SE3d motion = SE3d::Exp((Vec6() << 0, 0, 0.01, 0.05, 0.03, 0).finished());
+  RoomPair room;
+  room.source = testing_support::Room(3000, 1, motion.Inverse(), 0.005);
+  const ObjectiveSet set(room.source, room.target, room.features,
+                         {"edge_to_line", "planar_to_plane"}, {});
+  const JointObjective joint({{&set.objectives()[0], 0.1}, {&set.objectives()[1], 1}});
+  const MinimizerSummary summary = Minimize(joint, SE3d(), {});
+  ASSERT_TRUE(summary.Usable()) << summary.message;
+  EXPECT_LT((motion.Inverse() * summary.T_target_source()).t().norm(), 0.01);
+}
+
+TEST(JointObjective, RefusesWeightsThatAreNone) {
+  const RoomPair room;
+  const ObjectiveSet set(room.source, room.target, room.features, {"point_to_point"}, {});
+  for (const double weight : {0.0, -1.0, std::nan("")}) {
+    EXPECT_THROW(JointObjective({{&set.objectives()[0], weight}}), UsageError);
+  }
+}
+
+TEST(ObjectiveSet, KindsShareAMatcherAndTakeTheirFeatures) {
+  const RoomPair room;
+  const ObjectiveSet set(room.source, room.target, room.features,
+                         {"point_to_point", "symmetric", "edge_to_line", "planar_to_patch",
+                          "edge_to_line_distance", "planar_to_plane"},
+                         {});
+  const auto& o = set.objectives();
+  EXPECT_EQ(&o[0].matcher(), &o[1].matcher());
+  EXPECT_EQ(&o[2].matcher(), &o[4].matcher());
+  EXPECT_EQ(&o[3].matcher(), &o[5].matcher());
+  EXPECT_EQ(o[2].matcher().source().size(), 428U);  // Every seventh of 3000.
+  EXPECT_EQ(o[3].matcher().source().size(), 2572U);
+  Features none = room.features;
+  none.edge.assign(none.edge.size(), 0);
+  EXPECT_THROW(ObjectiveSet(room.source, room.target, none, {"edge_to_line"}, {}),
+               ComputationError);
+}
+
+}  // namespace
+}  // namespace icpscape
