@@ -98,7 +98,7 @@ MatchingOptions MatchingFromFlags() {
 }  // namespace
 
 std::vector<std::string> MetricsFromFlags() {
-  const std::vector<std::string> metrics = Split(FLAGS_metrics);
+  std::vector<std::string> metrics = Split(FLAGS_metrics);
   RequireFlag(!metrics.empty(), "metrics", FLAGS_metrics, "at least one metric");
   for (std::size_t i = 0; i < metrics.size(); ++i) {
     CheckMetricName(metrics[i]);
