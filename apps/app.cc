@@ -77,6 +77,10 @@ int RunApp(int argc, char** argv, const std::string& summary, const std::functio
   google::InitGoogleLogging(argv[0]);
   FLAGS_logtostderr = true;
   FLAGS_log_prefix = false;
+  // icpscape-landscape writes into out/landscape unless told otherwise.
+  gflags::SetCommandLineOptionWithMode("out",
+                                       ("out/" + AppName().substr(AppName().find('-') + 1)).c_str(),
+                                       gflags::SET_FLAGS_DEFAULT);
   for (int i = 1; i < argc; ++i) {
     if (std::strcmp(argv[i], "--help") == 0 || std::strcmp(argv[i], "-help") == 0 ||
         std::strcmp(argv[i], "-h") == 0) {

@@ -11,6 +11,7 @@
 #include "apps/filter_flags.h"
 #include "apps/objective_flags.h"
 #include "apps/pair_flags.h"
+#include "residuals/registry.h"
 #include "src/common/error.h"
 #include "src/common/text.h"
 #include "src/io/output.h"
@@ -38,6 +39,10 @@ namespace icpscape {
 namespace {
 
 void WriteCurves(const std::vector<Curve>& curves, const std::filesystem::path& out) {
+  // Tables of an earlier run's metrics must not stand beside this run's.
+  ForEachMetric([&](auto tag) {
+    std::filesystem::remove(out / (std::string(decltype(tag)::Metric::kName) + "_rmse.txt"));
+  });
   Table csv({"metric", "u", "rmse", "rms_residual", "cost", "n", "slope_analytic", "slope_numeric",
              "inlier_ratio", "epsilon", "rmse_fixed_n"});
   for (const Curve& curve : curves) {
@@ -66,7 +71,7 @@ void PrintMinima(const std::vector<Curve>& curves, double motion_m, Manifest* ma
 }
 
 void CheckFlags(const CurveOptions& options) {
-  CheckPairFlags();
+  CheckPairFlags(true);
   CheckFilterFlags();
   MetricsFromFlags();
   FeaturesFromFlags();
@@ -82,6 +87,37 @@ void CheckFlags(const CurveOptions& options) {
   if (FLAGS_association != "reassociate" && FLAGS_association != "frozen") {
     throw UsageError("--association=" + FLAGS_association + ": expected reassociate or frozen.");
   }
+}
+
+// ", --octree_voxel_m=0.1": what sets the curves apart from the default, for the title.
+std::string ChangedFlags() {
+  std::string text;
+  for (const char* flag : {"path",
+                           "reference",
+                           "initial",
+                           "reverse",
+                           "column",
+                           "artificial_blind_spot_m",
+                           "ego_filter_m",
+                           "octree_voxel_m",
+                           "filter_estimate",
+                           "reciprocal",
+                           "reciprocal_epsilon_m",
+                           "max_distance_m",
+                           "max_normal_angle_deg",
+                           "max_median_factor",
+                           "kept_fraction",
+                           "region_size_m",
+                           "loss",
+                           "smoothness",
+                           "feature_caps",
+                           "normal_neighbors"}) {
+    const gflags::CommandLineFlagInfo info = gflags::GetCommandLineFlagInfoOrDie(flag);
+    if (info.current_value != info.default_value) {
+      text += ", --" + info.name + "=" + info.current_value;
+    }
+  }
+  return text;
 }
 
 // Prints how far point-to-plane moves from the ground truth, and returns the pose for u = 1.
@@ -106,10 +142,6 @@ void Landscape() {
   Manifest manifest(AppName());
   RecordFlags(&manifest);
   ScanPair pair = LoadPair(metrics, &manifest);
-  if (!pair.T_ground_truth) {
-    throw UsageError(
-        "no ground truth: expected --ground_truth=FILE (T_target_source as 4x4 text).");
-  }
   const SE3d T_reference = ReferencePose(pair, &manifest);
   FilterPair(&pair, &manifest);
 
@@ -131,12 +163,14 @@ void Landscape() {
   PrintMinima(curves, T_reference.t().norm(), &manifest);
   WriteCurves(curves, out);
   const bool drawn = RunPlotScript(
-      "plot_curves.py", {(out / "curves.csv").string(), "--out", (out / "landscape").string(),
-                         "--column", FLAGS_column, "--title", pair.title + "\n" + association});
+      "plot_curves.py",
+      {(out / "curves.csv").string(), "--out", (out / "landscape").string(), "--column",
+       FLAGS_column, "--title", pair.title + "\n" + association + ChangedFlags()});
   manifest.AddTiming("figures");
   manifest.Write(out / "manifest.json");
   std::cout << "written: " << (out / "curves.csv").string()
-            << (drawn ? ", landscape.svg, landscape.png" : "") << ", manifest.json\n";
+            << (drawn ? ", landscape.svg, landscape.png" : "")
+            << ", a METRIC_rmse.txt for pgfplots each, manifest.json\n";
 }
 
 }  // namespace

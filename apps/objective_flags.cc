@@ -99,7 +99,8 @@ MatchingOptions MatchingFromFlags() {
 
 std::vector<std::string> MetricsFromFlags() {
   std::vector<std::string> metrics = Split(FLAGS_metrics);
-  RequireFlag(!metrics.empty(), "metrics", FLAGS_metrics, "at least one metric");
+  RequireFlag(!metrics.empty() && Join(metrics, ",") == FLAGS_metrics, "metrics", FLAGS_metrics,
+              "at least one metric, separated by single commas");
   for (std::size_t i = 0; i < metrics.size(); ++i) {
     CheckMetricName(metrics[i]);
     for (std::size_t j = 0; j < i; ++j) {

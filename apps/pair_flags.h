@@ -19,6 +19,7 @@ struct ScanPair {
   PointCloud source;
   PointCloud target;
   std::optional<SE3d> T_ground_truth;  ///< T_target_source.
+  bool truth_is_exact = false;         ///< Simulated: no check is needed.
   std::optional<SE3d> T_prior;         ///< The motion of the frame before, where it is known.
   SE3d T_initial;                      ///< Pose at u = 0, and where register starts.
   Features features;                   ///< Of the source, where a metric needs them.
@@ -28,15 +29,17 @@ struct ScanPair {
   void KeepSource(const std::vector<char>& keep);
 };
 
-/// Refuses what can be seen to be wrong before any file is read. Throws UsageError.
-void CheckPairFlags();
+/// Refuses what can be seen to be wrong before any file is read, also where a ground truth is
+/// needed and the input has none. Throws UsageError.
+void CheckPairFlags(bool needs_ground_truth);
 
 /// Simulates the pair of --scene --seed, or reads that of --kitti_root --sequence --frame or of
 /// --source --target --ground_truth; estimates normals and extracts features where one of the
 /// metrics needs them, prints what was read and dropped, and records inputs and timings.
 ScanPair LoadPair(const std::vector<std::string>& metrics, Manifest* manifest);
 
-/// Checks the pair's ground truth, prints how far point-to-plane moves from it and records that.
+/// Checks the pair's ground truth, prints how far point-to-plane moves from it and records that. A
+/// truth that is exact stays what it is: there an offset is the metric's.
 /// Where the check has no answer: throws ComputationError if it is `needed`, else says so and
 /// returns nothing.
 std::optional<GroundTruthCheck> GroundTruthCheckOf(const ScanPair& pair, bool needed,

@@ -154,7 +154,7 @@ JointObjective JointFromFlags(const ObjectiveSet& set) {
 }
 
 void CheckFlags() {
-  CheckPairFlags();
+  CheckPairFlags(FLAGS_starts > 0);
   CheckFilterFlags();
   FeaturesFromFlags();
   ObjectiveSetFromFlags();
@@ -175,10 +175,6 @@ void Register() {
   Manifest manifest(AppName());
   RecordFlags(&manifest);
   ScanPair pair = LoadPair(metrics, &manifest);
-  if (FLAGS_starts > 0 && !pair.T_ground_truth) {
-    throw UsageError(
-        "--starts needs a reference: expected --scene, --kitti_root or --ground_truth.");
-  }
   std::optional<GroundTruthCheck> check;
   if (pair.T_ground_truth) {
     check = GroundTruthCheckOf(pair, FLAGS_starts > 0, &manifest);
@@ -213,7 +209,8 @@ void Register() {
   }
   manifest.Write(out / "manifest.json");
   std::cout << "written: " << (out / "T_target_source.txt").string()
-            << ", iterations.csv, aligned.ply, manifest.json\n";
+            << ", iterations.csv, aligned.ply (the source, moved onto the target)"
+            << (FLAGS_starts > 0 ? ", starts.csv" : "") << ", manifest.json\n";
 }
 
 }  // namespace

@@ -33,6 +33,8 @@ namespace internal {
 template <class M>
 constexpr void CheckMetric() {
   static_assert(std::is_aggregate_v<M>, "a metric is an aggregate of constants");
+  static_assert(std::is_same_v<decltype(M::kEpsilon), const Epsilon>,
+                "kEpsilon says what the plotted RMSE sums");
   static_assert(std::is_same_v<decltype(M::From(std::declval<Correspondence>())), M>,
                 "a metric is made by From(correspondence)");
   static_assert(std::is_same_v<decltype(std::declval<const M&>().Residual(std::declval<SE3d>())),

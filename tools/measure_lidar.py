@@ -1,4 +1,4 @@
-#!/usr/bin/env python3
+#!/usr/bin/python3
 # SPDX-License-Identifier: BSD-3-Clause
 """Measures KITTI's lidar on its scans: where the simulated lidar's constants come from.
 

@@ -1,4 +1,4 @@
-#!/usr/bin/env python3
+#!/usr/bin/python3
 # SPDX-License-Identifier: BSD-3-Clause
 """Draws curves.csv: one column of every metric over u, and below it the slope, as SVG and PNG.
 

@@ -47,12 +47,20 @@ bool IsWhole(const std::filesystem::path& folder, const std::string& name, const
          std::filesystem::exists(folder / name) && Sha256(folder / name) == files[name];
 }
 
-void PrepareFolders(const DatasetOptions& options, const std::filesystem::path& folder) {
-  if (std::filesystem::exists(folder / "velodyne") &&
-      !std::filesystem::exists(folder / "simulation.json")) {
-    throw InputError(folder.string() +
-                     ": holds scans that were not simulated here; expected another --out.");
+// Measured data and simulated must not mix: a slip of --out could put a scene among KITTI's.
+void RefuseForeignSequences(const std::filesystem::path& root) {
+  std::error_code error;
+  for (const auto& entry : std::filesystem::directory_iterator(root / "sequences", error)) {
+    if (std::filesystem::exists(entry.path() / "velodyne") &&
+        !std::filesystem::exists(entry.path() / "simulation.json")) {
+      throw InputError(entry.path().string() +
+                       ": holds scans that were not simulated here; expected another --out.");
+    }
   }
+}
+
+void PrepareFolders(const DatasetOptions& options, const std::filesystem::path& folder) {
+  RefuseForeignSequences(options.root);
   PrepareOutputFolder(options.root / "poses");
   for (const char* kind : {"velodyne", "labels", "rings"}) {
     PrepareOutputFolder(folder / kind);

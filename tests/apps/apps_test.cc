@@ -317,7 +317,9 @@ TEST_F(Apps, WrongCommandLines) {
   ExpectRefusal(RunProgram("landscape", Files({"--kitti_root=x"})), 1, "expected one of them");
   ExpectRefusal(RunProgram("landscape", {"--kitti_root=x", "--frame=0"}), 1,
                 "no scan comes before it");
-  ExpectRefusal(RunProgram("landscape", {"--kitti_root=x"}), 1, "--frame=-1");
+  ExpectRefusal(RunProgram("landscape", {"--kitti_root=x"}), 1, "no --frame");
+  ExpectRefusal(RunProgram("landscape", Files({"--metrics=symmetric,,two_plane"})), 1,
+                "single commas");
   ExpectRefusal(RunProgram("register", Files({"--loss=hubert"})), 1, "none, huber");
   ExpectRefusal(RunProgram("register", Files({"--loss_scale_m=0", "--loss=huber"})), 1,
                 "expected 1e-6 to 1e6");

@@ -1,7 +1,7 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: BSD-3-Clause
 # run.sh BUILD_DIR COMPILER: installs the build and lets two small projects find, link and run it:
-# the residuals with Eigen alone, and the whole library.
+# the residuals with Eigen alone or with Ceres, and the whole library.
 set -euo pipefail
 build=$1 compiler=$2
 here=$(cd "$(dirname "$0")" && pwd)
@@ -15,5 +15,6 @@ for core in OFF ON; do
   cmake --build "$work/build-$core"
 done
 "$work/build-OFF/own_solver"
+"$work/build-OFF/ceres_problem"
 "$work/build-ON/register_two_clouds"
 "$work/prefix/bin/icpscape-list_metrics"

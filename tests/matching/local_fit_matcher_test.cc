@@ -43,10 +43,10 @@ TEST(LocalFit, FindsALine) {
   // The nearest point instead of the mean.
   LocalFitOptions nearest;
   nearest.anchor = FitAnchor::kNearest;
-  EXPECT_LE((MatchOne(Shape::kLine, {1.5, 2, 0.19}, Pole(), nearest).fits[0].anchor -
-             Vec3(1, 2, 0.2))
-                .norm(),
-            1e-6);
+  EXPECT_LE(
+      (MatchOne(Shape::kLine, {1.5, 2, 0.19}, Pole(), nearest).fits[0].anchor - Vec3(1, 2, 0.2))
+          .norm(),
+      1e-6);
 }
 
 // A cross in the plane x = 3 with arms of 0.1 and 0.2 m: sums of squares 0.02 along y and 0.08
@@ -68,8 +68,8 @@ TEST(LocalFit, RatiosAndScalesByHand) {
   EXPECT_EQ(patch.area_patch, 0.25);
 }
 
-// Four corners of a square, one lifted by h, and the middle: the smallest eigenvalue depends on what
-// the sum of squares is divided by, and the threshold of 1e-4 m^2 with it.
+// Four corners of a square, one lifted by h, and the middle: the smallest eigenvalue depends on
+// what the sum of squares is divided by, and the threshold of 1e-4 m^2 with it.
 TEST(LocalFit, SmallestEigenvalueScales) {
   PointCloud corners;
   for (const double x : {-0.3, 0.3}) {
@@ -128,7 +128,8 @@ TEST(LocalFit, IsTheSameForAnyNumberOfThreads) {
   }
 }
 
-// A second method on a real scan: covariance about the mean by two passes, eigenvalues by iteration.
+// A second method on a real scan: covariance about the mean by two passes, eigenvalues by
+// iteration.
 TEST(LocalFit, AgreesWithASecondMethodOnARealScan) {
   ICPSCAPE_SKIP_WITHOUT_KITTI();
   const PointCloud source = KittiScan("00", 15);
