@@ -62,9 +62,10 @@ double Off(const Curve& curve) { return std::abs(ArgminU(curve) - 1); }
 void ClaimList::Add(const std::string& id, const std::string& statement,
                     const std::vector<FigureView>& needs,
                     const std::function<bool(std::string* measured)>& check) {
-  Claim claim{id, statement, "", Claim::Outcome::kNotDrawn};
+  Claim claim{id, statement, "-", Claim::Outcome::kNotDrawn};
   if (std::all_of(needs.begin(), needs.end(),
                   [](const FigureView& view) { return view.Drawn(); })) {
+    claim.measured.clear();
     claim.outcome = check(&claim.measured) ? Claim::Outcome::kHolds : Claim::Outcome::kDoesNotHold;
   }
   claims_.push_back(std::move(claim));

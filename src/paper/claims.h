@@ -15,7 +15,7 @@ namespace icpscape {
 struct Claim {
   std::string id;         ///< "F3e": figure 3, fifth assertion; "C1": first conclusion.
   std::string statement;  ///< No commas: the tables separate by them.
-  std::string measured;
+  std::string measured;   ///< "-" where not drawn.
   enum class Outcome { kHolds, kDoesNotHold, kNotDrawn } outcome = Outcome::kNotDrawn;
 };
 
