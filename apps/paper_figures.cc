@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <gflags/gflags.h>
 
+#include <cmath>
 #include <cstdio>
 #include <filesystem>
 #include <iostream>
@@ -144,7 +145,13 @@ void EvaluateScene(const std::vector<Figure>& figures, const std::string& scene,
   }
   const PaperPair pair = LoadPair(*first, options.threads, manifest);
   std::cout << TitleOf(*first) << ": source " << pair.source.size() << " points ("
-            << pair.features.num_edge << " edges), target " << pair.target.size() << " points\n";
+            << pair.features.num_edge << " edges), target " << pair.target.size() << " points"
+            << std::endl;
+  const SE3d off = pair.T_target_source.Inverse() * pair.T_prior;
+  std::printf("  motion %.4f m; that of the frame before, T_e, is %.4f m and %.3f deg off\n",
+              pair.T_target_source.t().norm(), off.t().norm(),
+              off.LogRotation().norm() * 180 / M_PI);
+  manifest->SetResult("prior_off_m_" + scene, off.t().norm());
   Progress progress("poses of " + scene, options.samples * static_cast<int>(variants.size()));
   for (auto& [file, curve] :
        EvaluatePaperCurves(pair, curves, options, [&](int done) { progress.Show(done); })) {
