@@ -148,6 +148,7 @@ void Overtaking(const FigureView& f5, ClaimList* claims) {
                 }
                 std::sort(ratios.rbegin(), ratios.rend());
                 std::vector<std::string> parts;
+                parts.reserve(ratios.size());
                 for (const auto& [ratio, name] : ratios) {
                   parts.push_back(name + " " + Fixed(ratio, 3));
                 }
