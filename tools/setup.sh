@@ -19,8 +19,10 @@ for option in "$@"; do
   case "$option" in
     --with-checks) packages+=(clang-format clang-tidy) ;;
     --with-comparison) packages+=(python3-scipy) ;;
+    --with-latex) packages+=(texlive-latex-base texlive-pictures poppler-utils) ;;
     *)
-      echo "setup.sh: unknown option $option; expected --with-checks or --with-comparison" >&2
+      echo "setup.sh: unknown option $option; expected --with-checks, --with-comparison or" \
+        "--with-latex" >&2
       exit 1
       ;;
   esac

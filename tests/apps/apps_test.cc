@@ -1,11 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // The programs as users run them: results, and one sentence and an exit code for bad input.
-#include <fcntl.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
-#include <spawn.h>
-#include <sys/wait.h>
-#include <unistd.h>
 
 #include <algorithm>
 #include <cmath>
@@ -18,58 +14,20 @@
 #include "src/io/point_files.h"
 #include "src/io/transform.h"
 #include "tests/support/real_scans.h"
+#include "tests/support/run_program.h"
 #include "tests/support/scenes.h"
 #include "tests/support/temporary_folder.h"
-
-extern char** environ;
 
 namespace icpscape {
 namespace {
 
 using testing::HasSubstr;
+using testing_support::ExpectRefusal;
+using testing_support::Outcome;
+using testing_support::ReadCsv;
 using testing_support::ReadFile;
+using testing_support::RunProgram;
 using testing_support::TemporaryFolder;
-
-struct Outcome {
-  int code = -1;
-  std::string out;
-  std::string err;
-};
-
-Outcome RunProgram(const std::string& app, std::vector<std::string> arguments) {
-  const TemporaryFolder capture;
-  const std::string program = std::string(ICPSCAPE_BIN_DIR) + "/icpscape-" + app;
-  arguments.insert(arguments.begin(), program);
-  std::vector<char*> argv;
-  for (std::string& argument : arguments) {
-    argv.push_back(argument.data());
-  }
-  argv.push_back(nullptr);
-  posix_spawn_file_actions_t actions;
-  posix_spawn_file_actions_init(&actions);
-  const std::string out = (capture.path() / "out").string();
-  const std::string err = (capture.path() / "err").string();
-  posix_spawn_file_actions_addopen(&actions, STDOUT_FILENO, out.c_str(), O_CREAT | O_WRONLY, 0600);
-  posix_spawn_file_actions_addopen(&actions, STDERR_FILENO, err.c_str(), O_CREAT | O_WRONLY, 0600);
-  pid_t pid = 0;
-  Outcome outcome;
-  if (posix_spawn(&pid, program.c_str(), &actions, nullptr, argv.data(), environ) == 0) {
-    int status = 0;
-    waitpid(pid, &status, 0);
-    outcome.code = WIFEXITED(status) ? WEXITSTATUS(status) : 128 + WTERMSIG(status);
-  }
-  posix_spawn_file_actions_destroy(&actions);
-  outcome.out = ReadFile(out);
-  outcome.err = ReadFile(err);
-  return outcome;
-}
-
-/// Exit code, exactly one line on stderr, and what it must say.
-void ExpectRefusal(const Outcome& outcome, int code, const std::string& says) {
-  EXPECT_EQ(outcome.code, code) << outcome.err;
-  EXPECT_THAT(outcome.err, HasSubstr(says));
-  EXPECT_EQ(std::count(outcome.err.begin(), outcome.err.end(), '\n'), 1) << outcome.err;
-}
 
 /// A room seen twice, 0.3 m apart, as files; and a small KITTI folder.
 class Apps : public testing::Test {
@@ -113,24 +71,6 @@ class Apps : public testing::Test {
 
   TemporaryFolder folder_;
 };
-
-std::vector<std::map<std::string, std::string>> ReadCsv(const std::string& path) {
-  std::istringstream in(ReadFile(path));
-  std::string line;
-  std::getline(in, line);
-  const std::vector<std::string> columns = Split(line);
-  std::vector<std::map<std::string, std::string>> rows;
-  while (std::getline(in, line)) {
-    const std::vector<std::string> cells = Split(line);
-    EXPECT_EQ(cells.size(), columns.size());
-    std::map<std::string, std::string> row;
-    for (std::size_t i = 0; i < cells.size(); ++i) {
-      row[columns[i]] = cells[i];
-    }
-    rows.push_back(row);
-  }
-  return rows;
-}
 
 TEST_F(Apps, LandscapeWritesTablesFiguresAndManifest) {
   const Outcome outcome = RunProgram("landscape", Files({"--samples=31"}));
