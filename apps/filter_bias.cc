@@ -108,7 +108,7 @@ void ReportRemoval(const ScanPair& pair, Manifest* manifest) {
 }
 
 void FilterBias() {
-  CheckPairFlags();
+  CheckPairFlags(true);
   const std::vector<std::string> metrics = MetricsFromFlags();
   FeaturesFromFlags();
   ObjectiveSetFromFlags();

@@ -1,4 +1,4 @@
-#!/usr/bin/env python3
+#!/usr/bin/python3
 # SPDX-License-Identifier: BSD-3-Clause
 """Draws filter_bias.csv: where every metric's minimum goes when the filter's estimate is moved.
 

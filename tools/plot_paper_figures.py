@@ -1,4 +1,4 @@
-#!/usr/bin/env python3
+#!/usr/bin/python3
 # SPDX-License-Identifier: BSD-3-Clause
 """Draws the paper's result figures from a folder of icpscape-paper_figures, as SVG and PNG.
 

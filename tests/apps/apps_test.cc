@@ -168,6 +168,15 @@ TEST_F(Apps, InitialPoseIsTheStartAndLossIsUsed) {
   EXPECT_LT(first_cost({"--loss=huber", "--loss_scale_m=0.01"}), 0.5 * from_identity);
 }
 
+TEST_F(Apps, ReverseGoesTheOtherWay) {
+  const Outcome outcome = RunProgram("register", Files({"--reverse"}));
+  ASSERT_EQ(outcome.code, 0) << outcome.err;
+  const SE3d T = ReadTransform(Path("out/T_target_source.txt"));
+  const SE3d truth = ReadTransform(Path("truth.txt")).Inverse();
+  EXPECT_LT((truth.Inverse() * T).t().norm(), 0.02);
+  EXPECT_GT((truth.Inverse() * SE3d()).t().norm(), 0.2);
+}
+
 TEST_F(Apps, SeveralMetricsAreMinimisedTogether) {
   const Outcome outcome =
       RunProgram("register", Files({"--metrics=point_to_plane,symmetric", "--weights=1,0.25"}));
