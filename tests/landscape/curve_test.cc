@@ -19,17 +19,8 @@ namespace {
 
 const SE3d kMotion = SE3d::Exp((Vec6() << 0.01, -0.005, 0.05, 0.6, 0.05, -0.02).finished());
 
-struct MovedRoom {
-  PointCloud target = testing_support::Room(3000, 1, SE3d(), 0.005);
-  PointCloud source = testing_support::Room(3000, 2, kMotion.Inverse(), 0.005);
-  MovedRoom() {
-    EstimateNormals({}, 2, &target);
-    EstimateNormals({}, 2, &source);
-  }
-};
-
-const MovedRoom& Room() {
-  static const MovedRoom room;
+const testing_support::MovedRoom& Room() {
+  static const testing_support::MovedRoom room(3000, kMotion);
   return room;
 }
 

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <random>
 
+#include "src/cloud/normals.h"
 #include "src/cloud/point_cloud.h"
 
 namespace icpscape::testing_support {
@@ -54,6 +55,18 @@ inline PointCloud Room(int points, unsigned seed, const SE3d& T_sensor_room = SE
   }
   return cloud;
 }
+
+/// The room seen from two places: T_target_source is `motion`. Both clouds have normals.
+struct MovedRoom {
+  PointCloud target;
+  PointCloud source;
+
+  MovedRoom(int points, const SE3d& motion)
+      : target(Room(points, 1, SE3d(), 0.005)), source(Room(points, 2, motion.Inverse(), 0.005)) {
+    EstimateNormals({}, 2, &target);
+    EstimateNormals({}, 2, &source);
+  }
+};
 
 /// A random cloud in a cube, with some exact duplicates and a lattice that makes exact ties.
 inline PointCloud CloudWithTies(int points, unsigned seed) {
