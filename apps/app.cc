@@ -109,6 +109,8 @@ int RunApp(int argc, char** argv, const std::string& summary, const std::functio
     return Fail(error.what(), 3);
   } catch (const std::bad_alloc&) {
     return Fail("out of memory; expected smaller clouds or fewer samples.", 3);
+  } catch (const std::exception& error) {
+    return Fail(std::string("unexpected error: ") + error.what(), 3);
   }
 }
 

@@ -109,6 +109,11 @@ void ReportRemoval(const ScanPair& pair, Manifest* manifest) {
 
 void FilterBias() {
   CheckPairFlags(true);
+  for (const char* flag : {"loss", "initial"}) {
+    const gflags::CommandLineFlagInfo info = gflags::GetCommandLineFlagInfoOrDie(flag);
+    RequireFlag(info.current_value == info.default_value, flag, info.current_value,
+                "its default, since the paper's RMSE along the path knows neither loss nor start");
+  }
   const std::vector<std::string> metrics = MetricsFromFlags();
   FeaturesFromFlags();
   ObjectiveSetFromFlags();

@@ -5,6 +5,7 @@
 
 #include <cmath>
 #include <cstdio>
+#include <filesystem>
 
 #include "apps/app.h"
 #include "src/common/error.h"
@@ -44,7 +45,7 @@ void Apply(const char* name, const FilteredPair& filtered, ScanPair* pair, Manif
   pair->target = filtered.target;
 }
 
-SE3d Estimate(const ScanPair& pair) {
+SE3d Estimate(const ScanPair& pair, Manifest* manifest) {
   if (FLAGS_filter_estimate == "identity") {
     return SE3d();
   }
@@ -61,6 +62,7 @@ SE3d Estimate(const ScanPair& pair) {
     }
     return *pair.T_prior;
   }
+  manifest->AddInput(FLAGS_filter_estimate);
   return ReadTransform(FLAGS_filter_estimate);
 }
 
@@ -73,6 +75,11 @@ void CheckFilterFlags() {
         std::pair("octree_voxel_m", FLAGS_octree_voxel_m)}) {
     RequireFlag(value >= 0 && std::isfinite(value), flag, Number(value), "a length in m, or 0");
   }
+  RequireFlag(FLAGS_filter_estimate == "previous_motion" || FLAGS_filter_estimate == "identity" ||
+                  FLAGS_filter_estimate == "ground_truth" ||
+                  std::filesystem::is_regular_file(FLAGS_filter_estimate),
+              "filter_estimate", FLAGS_filter_estimate,
+              "previous_motion, identity, ground_truth or a file");
 }
 
 void FilterPair(ScanPair* pair, Manifest* manifest) {
@@ -83,12 +90,13 @@ void FilterPair(ScanPair* pair, Manifest* manifest) {
   }
   if (FLAGS_ego_filter_m > 0) {
     Apply("ego_filter",
-          EgoBlindSpotFilter(pair->source, pair->target, Estimate(*pair), FLAGS_ego_filter_m), pair,
-          manifest);
+          EgoBlindSpotFilter(pair->source, pair->target, Estimate(*pair, manifest),
+                             FLAGS_ego_filter_m),
+          pair, manifest);
   }
   if (FLAGS_octree_voxel_m > 0) {
     Apply("octree_filter",
-          OctreeCorrespondenceFilter(pair->source, pair->target, Estimate(*pair),
+          OctreeCorrespondenceFilter(pair->source, pair->target, Estimate(*pair, manifest),
                                      {FLAGS_octree_voxel_m}),
           pair, manifest);
   }

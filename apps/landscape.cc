@@ -97,6 +97,7 @@ std::string ChangedFlags() {
                            "initial",
                            "reverse",
                            "column",
+                           "patch_offset",
                            "artificial_blind_spot_m",
                            "ego_filter_m",
                            "octree_voxel_m",
@@ -108,12 +109,29 @@ std::string ChangedFlags() {
                            "max_median_factor",
                            "kept_fraction",
                            "region_size_m",
+                           "region_median_factor",
                            "loss",
                            "smoothness",
+                           "smoothness_neighborhood",
+                           "ring_points_per_side",
+                           "smoothness_neighbors",
+                           "smoothness_radius_m",
+                           "planar_below",
+                           "edge_from",
                            "feature_caps",
-                           "normal_neighbors"}) {
+                           "fit_neighbors",
+                           "fit_eigenvalue_ratio",
+                           "fit_max_smallest_eigenvalue_m2",
+                           "fit_eigenvalue_scale",
+                           "fit_anchor",
+                           "fit_max_neighbor_distance_m",
+                           "patch_leg_m",
+                           "normal_neighbors",
+                           "normal_radius_m",
+                           "elevation_correction_deg"}) {
     const gflags::CommandLineFlagInfo info = gflags::GetCommandLineFlagInfoOrDie(flag);
-    if (info.current_value != info.default_value) {
+    const bool has_a_say = info.name != "loss" || FLAGS_column == "cost";
+    if (info.current_value != info.default_value && has_a_say) {
       text += ", --" + info.name + "=" + info.current_value;
     }
   }
@@ -160,7 +178,7 @@ void Landscape() {
   }
   manifest.AddTiming("landscape");
 
-  PrintMinima(curves, T_reference.t().norm(), &manifest);
+  PrintMinima(curves, (T_reference.t() - pair.T_initial.t()).norm(), &manifest);
   WriteCurves(curves, out);
   const bool drawn = RunPlotScript(
       "plot_curves.py",
@@ -179,6 +197,6 @@ void Landscape() {
 int main(int argc, char** argv) {
   return icpscape::RunApp(argc, argv,
                           "draws the objective functions of ICP along a path of poses from the "
-                          "identity (u = 0) to the true motion (u = 1): the open loop.",
+                          "start (u = 0) to the true motion (u = 1): the open loop.",
                           icpscape::Landscape);
 }

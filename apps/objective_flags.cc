@@ -13,7 +13,8 @@ DEFINE_string(metrics, "point_to_point,point_to_plane,symmetric",
               "Metrics, separated by commas; icpscape-list_metrics names them.");
 DEFINE_string(loss, "none",
               "Loss on each residual: none, huber, soft_l_one, cauchy, arctan, tukey, tolerant. "
-              "planar_to_patch keeps its own, SoftLOneLoss(1), under none.");
+              "planar_to_patch keeps its own, SoftLOneLoss(1), under none. It bends the cost; the "
+              "paper's RMSE knows no loss.");
 DEFINE_double(loss_scale_m, 0.1, "Length at which the loss bends (m).");
 
 DEFINE_double(max_distance_m, 0, "Longest distance of a pair (m); 0 is no limit, as in the paper.");
@@ -85,10 +86,14 @@ MatchingOptions MatchingFromFlags() {
   }
   options.max_normal_angle_rad =
       AtLeastZero("max_normal_angle_deg", FLAGS_max_normal_angle_deg) * M_PI / 180;
+  RequireFlag(FLAGS_max_normal_angle_deg <= 180, "max_normal_angle_deg",
+              Number(FLAGS_max_normal_angle_deg), "at most 180 degrees");
   options.max_median_factor = AtLeastZero("max_median_factor", FLAGS_max_median_factor);
   RequireFlag(FLAGS_kept_fraction > 0 && FLAGS_kept_fraction <= 1, "kept_fraction",
               Number(FLAGS_kept_fraction), "above 0, at most 1");
   options.kept_fraction = FLAGS_kept_fraction;
+  RequireFlag(FLAGS_region_median_factor > 0 && std::isfinite(FLAGS_region_median_factor),
+              "region_median_factor", Number(FLAGS_region_median_factor), "a positive number");
   if (AtLeastZero("region_size_m", FLAGS_region_size_m) > 0) {
     options.regions = RegionOptions{FLAGS_region_size_m, FLAGS_region_median_factor};
   }

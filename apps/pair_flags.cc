@@ -91,7 +91,7 @@ void LoadKitti(ScanPair* pair, Manifest* manifest) {
   pair->title = "KITTI " + FLAGS_sequence + ", scan " + std::to_string(FLAGS_frame) + " to " +
                 std::to_string(TargetFrame());
   pair->T_ground_truth = sequence.RelativeMotion(TargetFrame(), FLAGS_frame);
-  if (TargetFrame() > 0) {
+  if (TargetFrame() > 0 && FLAGS_frame > 0) {
     pair->T_prior = sequence.RelativeMotion(TargetFrame() - 1, FLAGS_frame - 1);
   }
   manifest->AddInput(sequence.PosesPath());
@@ -139,7 +139,8 @@ SE3d InitialPose(const ScanPair& pair, Manifest* manifest) {
 // Before any filter: a scan line with holes has other neighbours.
 void AddFeatures(ScanPair* pair, Manifest* manifest) {
   const FeatureOptions options = FeaturesFromFlags();
-  if (options.smoothness.neighborhood == SmoothnessNeighborhood::kRing) {
+  if (options.smoothness.neighborhood == SmoothnessNeighborhood::kRing ||
+      options.caps.regions_per_ring > 0) {
     RecoverRings(&pair->source);
   }
   pair->features = ExtractFeatures(pair->source, options, ThreadsFromFlags());
@@ -241,6 +242,9 @@ ScanPair LoadPair(const std::vector<std::string>& metrics, Manifest* manifest) {
   manifest->AddTiming("read");
   // The ground-truth check is point-to-plane.
   unsigned needs = pair.T_ground_truth ? static_cast<unsigned>(kTargetNormal) : 0U;
+  if (ObjectiveSetFromFlags().matching.max_normal_angle_rad > 0) {
+    needs |= kSourceNormal | kTargetNormal;
+  }
   bool features = false;
   for (const std::string& metric : metrics) {
     needs |= MetricNeeds(metric);

@@ -215,13 +215,29 @@ void WriteClaims(const std::vector<Claim>& claims, const std::string& source,
   WriteTextFile(out / "claims.md", ClaimsMarkdown(claims, source));
 }
 
+// --out, without what an earlier run drew: its figures must not stand beside this run's claims.
+std::filesystem::path PrepareOut() {
+  RequireFlag(!FLAGS_out.empty(), "out", FLAGS_out, "a folder");
+  const std::filesystem::path out = FLAGS_out;
+  PrepareOutputFolder(out / "data");
+  std::filesystem::remove(out / "manifest.json");
+  for (const Figure& figure : PaperFigures()) {
+    for (const char* extension : {".tex", ".svg", ".png"}) {
+      std::filesystem::remove(out / (figure.name + extension));
+    }
+    for (const FigureCurve& curve : figure.curves) {
+      std::filesystem::remove(out / "data" / (curve.file + ".txt"));
+    }
+  }
+  return out;
+}
+
 void PaperFiguresMain() {
   CurveOptions options;
   options.samples = FLAGS_samples;
   options.threads = FLAGS_threads > 0 ? FLAGS_threads : HardwareThreads();
   CheckFlags(options);
-  const std::filesystem::path out = FLAGS_out;
-  PrepareOutputFolder(out / "data");
+  const std::filesystem::path out = PrepareOut();
   Manifest manifest(AppName());
   RecordFlags(&manifest);
   std::vector<Figure> figures = FiguresFromName(FLAGS_figure);
@@ -239,8 +255,10 @@ void PaperFiguresMain() {
   }
   WriteTables(figures, drawn, out);
   WriteClaims(EvaluateClaims(inputs),
-              FromKitti() ? "KITTI's scans"
-                          : "the simulated scenes, seed " + std::to_string(SeedFromFlags()),
+              FromKitti()
+                  ? "KITTI's scans (straight street 00/" + std::to_string(FLAGS_straight_frame) +
+                        ", turn 00/" + std::to_string(FLAGS_turn_frame) + ")"
+                  : "the simulated scenes, seed " + std::to_string(SeedFromFlags()),
               out, &manifest);
   RunPlotScript("plot_paper_figures.py", {out.string()});
   manifest.AddTiming("figures");

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <gflags/gflags.h>
 
+#include <algorithm>
 #include <cmath>
 #include <cstdio>
 #include <iostream>
@@ -56,11 +57,13 @@ MinimizerOptions MinimizerFromFlags() {
     throw UsageError(
         "--loss=tolerant curves upwards: expected --reassociation=every_step with it.");
   }
+  const std::vector<std::string> metrics = MetricsFromFlags();
   if (options.reassociation == Reassociation::kEveryEvaluation &&
-      ObjectiveSetFromFlags().matching.Rejects()) {
+      (ObjectiveSetFromFlags().matching.Rejects() ||
+       std::any_of(metrics.begin(), metrics.end(), NeedsFeatures))) {
     throw UsageError(
         "--reassociation=every_evaluation compares sums over all pairs: expected every_step where "
-        "pairs are rejected.");
+        "pairs are rejected, or lines and patches are fitted.");
   }
   if (FLAGS_max_iterations < 1 || !(FLAGS_min_step_m >= 0) || !(FLAGS_min_step_deg >= 0)) {
     throw UsageError(
@@ -163,7 +166,8 @@ void CheckFlags() {
   RequireFlag(weights.empty() || weights.size() == MetricsFromFlags().size(), "weights",
               FLAGS_weights, "one weight per metric");
   for (const std::string& weight : weights) {
-    RequireFlag(ParseNumber(weight) > 0, "weights", FLAGS_weights, "positive numbers");
+    RequireFlag(ParseNumber(weight) > 0 && std::isfinite(ParseNumber(weight)), "weights",
+                FLAGS_weights, "positive numbers");
   }
 }
 

@@ -12,6 +12,7 @@
 #include "src/io/kitti.h"
 #include "src/io/manifest.h"
 #include "src/io/sha256.h"
+#include "src/io/transform.h"
 #include "src/simulation/dataset.h"
 #include "src/simulation/drive.h"
 #include "src/simulation/random.h"
@@ -118,7 +119,7 @@ void WriteDrive(const FrameRange& frames) {
   const auto last = frames.last < 0 ? all.end() : all.begin() + frames.last + 1;
   std::string route;
   for (const SE3d& T : all) {
-    route += Number(T.t().x()) + "," + Number(T.t().y()) + ";";
+    route += FormatTransform(T);
   }
   Write(
       FLAGS_sequence,

@@ -59,7 +59,7 @@ for ((i = 1; i <= count; ++i)); do
 \\end{document}
 END
   (cd "$work" && pdflatex -interaction=batchmode -halt-on-error page.tex >/dev/null) || {
-    reason=$(grep -m1 -A1 '^!' "$work/page.log" | tr '\n' ' ')
+    reason=$(grep -m1 -A1 '^!' "$work/page.log" 2>/dev/null | tr '\n' ' ' || true)
     fail "$1: figure $i does not compile: ${reason:-see pdflatex}" 3
   }
   mv "$work/page.pdf" "$out/${name}_$i.pdf"

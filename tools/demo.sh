@@ -4,18 +4,18 @@
 # it. Without arguments on a simulated scene that needs no data; otherwise the arguments name the
 # input: tools/demo.sh --scene=straight_street, or --kitti_root=DIR --sequence=00 --frame=95.
 set -euo pipefail
-cd "$(dirname "$0")/.."
-tools/build.sh release
+root=$(cd "$(dirname "$0")/.." && pwd)  # The caller's folder stays: inputs may be relative to it.
+"$root/tools/build.sh" release
 if [ $# -eq 0 ]; then
   set -- --scene=highway_overtaking
   expect="expected here: traffic pulls every minimum away from u = 1, and registration ends off the truth; see docs/experiments.md, and try: tools/demo.sh --scene=right_turn, or --scene=highway_overtaking --octree_voxel_m=0.1"
 fi
 echo "demo: the objective functions along the path of the motion ($*)"
-build/release/bin/icpscape-landscape "$@" --out=out/demo/landscape
+"$root/build/release/bin/icpscape-landscape" "$@" --out="$root/out/demo/landscape"
 echo "demo: registration from the identity"
-build/release/bin/icpscape-register "$@" --out=out/demo/register
+"$root/build/release/bin/icpscape-register" "$@" --out="$root/out/demo/register"
 if [ -n "${expect:-}" ]; then
   echo "demo: $expect"
 fi
-echo "demo: the picture is $PWD/out/demo/landscape/landscape.png (and .svg), the tables are beside it"
-echo "demo: the aligned cloud is $PWD/out/demo/register/aligned.ply"
+echo "demo: the picture is $root/out/demo/landscape/landscape.png (and .svg), the tables are beside it"
+echo "demo: the aligned cloud is $root/out/demo/register/aligned.ply"

@@ -6,23 +6,32 @@
 # truth: no claim about u* can be made.
 set -euo pipefail
 [ $# -eq 3 ] || { echo "traffic_references.sh: expected SCANS_DIR FRAME OUT" >&2; exit 1; }
-scans=$1 frame=$2 out=$3
+scans=$1 frame=$((10#$2)) out=$3
 bin=$(cd "$(dirname "$0")/.." && pwd)/build/release/bin
 scan() { printf '%s/%010d.bin' "$scans" "$1"; }
 target=$((frame - 1)) first=$((frame - 5))
-if [ "$first" -lt 0 ] || [ ! -f "$(scan "$frame")" ]; then
-  echo "traffic_references.sh: $(scan "$frame"): expected this scan and five before it" >&2
-  exit 2
-fi
+for i in $(seq "$first" "$frame"); do
+  if [ ! -f "$(scan "$i")" ]; then
+    echo "traffic_references.sh: $(scan "$i"): no such scan; expected $frame and five before it" >&2
+    exit 2
+  fi
+done
 mkdir -p "$out"
 
-estimate() { # NAME SOURCE TARGET
-  "$bin/icpscape-register" --source="$2" --target="$3" --metrics=point_to_plane --max_distance_m=1 \
-    --out="$out/$1" >"$out/$1.log"
+estimate() { # NAME SOURCE TARGET [START]
+  "$bin/icpscape-register" --source="$2" --target="$3" --initial="${4:-identity}" \
+    --metrics=point_to_plane --max_distance_m=1 --max_iterations=100 --out="$out/$1" >"$out/$1.log"
+  grep -q "^converged" "$out/$1.log" || {
+    echo "traffic_references.sh: $1 did not converge; see $out/$1.log" >&2
+    exit 3
+  }
 }
 estimate scan_to_scan "$(scan "$frame")" "$(scan "$target")"
-for i in $(seq "$first" $((target - 1))); do
-  estimate "earlier_$i" "$(scan "$i")" "$(scan "$target")"
+# Backwards in time, each from where the one after it ended.
+start=identity
+for i in $(seq $((target - 1)) -1 "$first"); do
+  estimate "earlier_$i" "$(scan "$i")" "$(scan "$target")" "$start"
+  start=$out/earlier_$i/T_target_source.txt
 done
 /usr/bin/python3 - "$scans" "$out" "$first" "$target" <<'PYTHON'
 import sys

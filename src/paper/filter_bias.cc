@@ -47,6 +47,10 @@ double ArgminError(const Objective& objective, const ErrorAxis& axis, int sample
   std::vector<double> rmse(static_cast<std::size_t>(samples));
   ParallelFor(rmse.size(), threads,
               [&](std::size_t i) { rmse[i] = objective.Evaluate(axis.pose(error(i)), 1).Rmse(); });
+  if (std::any_of(rmse.begin(), rmse.end(), [](double value) { return std::isnan(value); })) {
+    throw ComputationError("no correspondence is left for " + objective.metric() +
+                           " at some of the poses.");
+  }
   const auto least =
       static_cast<std::size_t>(std::min_element(rmse.begin(), rmse.end()) - rmse.begin());
   if (least == 0 || least + 1 == rmse.size()) {

@@ -37,7 +37,8 @@ std::string ScanName(int index, const char* extension) {
 Json ReadRecord(const std::filesystem::path& path, const std::string& parameters) {
   std::ifstream in(path);
   const Json record = Json::parse(in, nullptr, false);
-  const bool usable = record.is_object() && record.value("parameters", "") == parameters &&
+  const bool usable = record.is_object() && record.contains("parameters") &&
+                      record["parameters"].is_string() && record["parameters"] == parameters &&
                       record.contains("files") && record["files"].is_object();
   return usable ? record["files"] : Json::object();
 }
@@ -47,14 +48,39 @@ bool IsWhole(const std::filesystem::path& folder, const std::string& name, const
          std::filesystem::exists(folder / name) && Sha256(folder / name) == files[name];
 }
 
-// Measured data and simulated must not mix: a slip of --out could put a scene among KITTI's.
+// Measured data and simulated must not mix: a slip of --out could put a scene among KITTI's, or
+// write over its poses.
 void RefuseForeignSequences(const std::filesystem::path& root) {
+  const auto refuse_unless_simulated = [&](const std::string& sequence,
+                                           const std::filesystem::path& place) {
+    if (!std::filesystem::exists(root / "sequences" / sequence / "simulation.json")) {
+      throw InputError(place.string() +
+                       ": holds data that were not simulated here; expected another --out.");
+    }
+  };
   std::error_code error;
   for (const auto& entry : std::filesystem::directory_iterator(root / "sequences", error)) {
-    if (std::filesystem::exists(entry.path() / "velodyne") &&
-        !std::filesystem::exists(entry.path() / "simulation.json")) {
-      throw InputError(entry.path().string() +
-                       ": holds scans that were not simulated here; expected another --out.");
+    if (!std::filesystem::is_empty(entry.path(), error)) {
+      refuse_unless_simulated(entry.path().filename().string(), entry.path());
+    }
+  }
+  for (const auto& entry : std::filesystem::directory_iterator(root / "poses", error)) {
+    refuse_unless_simulated(entry.path().stem().string(), entry.path());
+  }
+}
+
+// Scans of an earlier, longer run would stand beside poses that do not know them.
+void RemoveSurplus(const std::filesystem::path& folder, const Json& files) {
+  for (const char* kind : {"velodyne", "labels", "rings", "ply"}) {
+    std::error_code error;
+    std::vector<std::filesystem::path> surplus;
+    for (const auto& entry : std::filesystem::directory_iterator(folder / kind, error)) {
+      if (!files.contains(std::string(kind) + "/" + entry.path().filename().string())) {
+        surplus.push_back(entry.path());
+      }
+    }
+    for (const std::filesystem::path& path : surplus) {
+      std::filesystem::remove(path);
     }
   }
 }
@@ -127,6 +153,7 @@ DatasetSummary WriteDataset(const DatasetOptions& options, const std::vector<SE3
       progress(i + 1);
     }
   }
+  RemoveSurplus(folder, record["files"]);
   WriteTextFile(folder / "times.txt", times);
   WriteKittiCalibration(folder / "calib.txt", CameraFromLidar());
   WriteKittiPoses(options.root / "poses" / (options.name + ".txt"), T_world_lidar,

@@ -115,9 +115,12 @@ std::vector<SE3d> ProjectToGround(const std::vector<SE3d>& T_world_lidar) {
 }
 
 std::vector<Street> StreetsAlong(const std::vector<Vec2>& route) {
+  // Where the car hardly moves: along x, so that there is something to see.
+  const std::vector<Street> standing = {
+      Street{{route[0] - Vec2(60, -kLaneOffsetM), route[0] + Vec2(60, kLaneOffsetM)}}};
   const std::vector<Vec2> thin = Thin(route);
   if (thin.size() < 2) {
-    return {Street{{route[0] - Vec2(60, -kLaneOffsetM), route[0] + Vec2(60, kLaneOffsetM)}}};
+    return standing;
   }
   std::vector<Vec2> corners = {thin[0]};
   Simplify(thin, 0, thin.size() - 1, &corners);
@@ -135,7 +138,7 @@ std::vector<Street> StreetsAlong(const std::vector<Vec2>& route) {
       line.clear();
     }
   }
-  return streets;
+  return streets.empty() ? standing : streets;
 }
 
 Drive MakeDrive(const std::vector<SE3d>& T_world_lidar, std::uint64_t key) {

@@ -168,6 +168,49 @@ TEST_F(Apps, InitialPoseIsTheStartAndLossIsUsed) {
   EXPECT_LT(first_cost({"--loss=huber", "--loss_scale_m=0.01"}), 0.5 * from_identity);
 }
 
+TEST_F(Apps, OffsetIsMeasuredAlongThePath) {
+  // From a start that is the truth less 10 cm the whole path is 10 cm long.
+  const SE3d truth = ReadTransform(Path("truth.txt"));
+  folder_.Write("near.txt", FormatTransform(SE3d(truth.R(), truth.t() - Vec3(0.1, 0, 0))));
+  const Outcome outcome =
+      RunProgram("landscape", Files({"--initial=" + Path("near.txt"), "--samples=7", "--u_min=-2",
+                                     "--u_max=0", "--metrics=point_to_plane"}));
+  ASSERT_EQ(outcome.code, 0) << outcome.err;
+  EXPECT_THAT(outcome.out, HasSubstr("0.0000         0.1000"));
+}
+
+TEST_F(Apps, NormalAngleBringsItsNormals) {
+  EXPECT_EQ(RunProgram("register", Files({"--max_normal_angle_deg=30"})).code, 0);
+}
+
+TEST_F(Apps, FrameZeroHasNoPriorButATarget) {
+  EXPECT_EQ(RunProgram("landscape", Kitti({"--frame=0", "--target_frame=1"})).code, 0);
+}
+
+TEST_F(Apps, CapsRecoverTheRingsTheyNeed) {
+  const Outcome outcome =
+      RunProgram("landscape", {"--scene=right_turn", "--samples=2", "--azimuth_step_deg=1",
+                               "--metrics=planar_to_plane", "--smoothness_neighborhood=k_nearest",
+                               "--feature_caps=loam", "--out=" + Path("out")});
+  EXPECT_EQ(outcome.code, 0) << outcome.err;
+}
+
+TEST_F(Apps, SimulationsStayAwayFromMeasuredData) {
+  const std::string poses = ReadFile(Path("kitti/poses/00.txt"));
+  ExpectRefusal(RunProgram("simulate", {"--scene=highway", "--out=" + Path("kitti")}), 2,
+                "not simulated here");
+  std::filesystem::remove_all(Path("kitti/sequences/00/velodyne"));
+  ExpectRefusal(RunProgram("simulate", {"--kitti_root=" + Path("kitti"), "--sequence=00",
+                                        "--frames=0:1", "--out=" + Path("kitti")}),
+                2, "not simulated here");
+  EXPECT_EQ(ReadFile(Path("kitti/poses/00.txt")), poses);
+  // A drive of 30 cm has a street as well.
+  EXPECT_EQ(RunProgram("simulate", {"--kitti_root=" + Path("kitti"), "--sequence=00",
+                                    "--azimuth_step_deg=2", "--out=" + Path("drive")})
+                .code,
+            0);
+}
+
 TEST_F(Apps, ReverseGoesTheOtherWay) {
   const Outcome outcome = RunProgram("register", Files({"--reverse"}));
   ASSERT_EQ(outcome.code, 0) << outcome.err;
@@ -286,6 +329,15 @@ TEST_F(Apps, WrongCommandLines) {
       RunProgram("register", Files({"--reassociation=every_evaluation", "--max_distance_m=1"})), 1,
       "expected every_step where pairs are rejected");
   ExpectRefusal(RunProgram("register", Files({"--weights=1,2"})), 1, "one weight per metric");
+  ExpectRefusal(RunProgram("register", Files({"--weights=inf"})), 1, "positive numbers");
+  ExpectRefusal(
+      RunProgram("register", Files({"--reassociation=every_evaluation", "--metrics=edge_to_line"})),
+      1, "fitted");
+  ExpectRefusal(RunProgram("landscape", Files({"--max_normal_angle_deg=200"})), 1, "at most 180");
+  ExpectRefusal(RunProgram("landscape", Files({"--region_median_factor=-2"})), 1, "positive");
+  ExpectRefusal(RunProgram("landscape", Files({"--filter_estimate=ground_thruth"})), 1,
+                "identity, ground_truth or a file");
+  ExpectRefusal(RunProgram("filter_bias", Files({"--loss=cauchy"})), 1, "--loss=cauchy");
   ExpectRefusal(RunProgram("register", Files({"--reassociation=never"})), 1, "every_step");
   ExpectRefusal(RunProgram("register", Files({"--max_iterations=0"})), 1, "--max_iterations");
   auto no_truth = Files({"--starts=5"});
