@@ -7,6 +7,7 @@ samples (dots): where they part, pairs are changing from one pose to the next.
 """
 import argparse
 import csv
+import itertools
 import os
 from collections import defaultdict
 
@@ -15,8 +16,10 @@ import matplotlib
 matplotlib.use("Agg")
 import matplotlib.pyplot as plt  # noqa: E402
 
-# The paper's colours and line styles; further metrics take the cycle's colours.
+# The paper's colours and line styles; further metrics take the other colours in turn.
 STYLES = {
+    "edge_to_line": ("edge point to edge line", "tab:orange", "--"),
+    "planar_to_patch": ("planar point to planar patch", "tab:green", "-"),
     "point_to_point": ("point-to-point", "tab:blue", "-"),
     "point_to_plane": ("point-to-plane", "tab:purple", "--"),
     "symmetric": ("symmetric objective function", "tab:cyan", "-."),
@@ -32,6 +35,8 @@ def read_curves(path):
                     curves[row["metric"]][column].append(float(value))
     return curves
 
+
+OTHER_COLORS = ("tab:red", "tab:brown", "tab:pink", "tab:olive", "tab:gray")
 
 LABELS = {
     "rmse": r"RMSE($\epsilon$)",
@@ -50,8 +55,10 @@ def draw(curves, column, title):
         rows, 1, sharex=True, squeeze=False, figsize=(7.2, 2.2 + 2.1 * rows),
         height_ratios=(3, 1.4)[:rows], layout="constrained")
     top, bottom = panels[0, 0], panels[-1, 0]
+    other_colors = itertools.cycle(OTHER_COLORS)
     for metric, curve in curves.items():
-        label, color, style = STYLES.get(metric, (metric.replace("_", " "), None, "-"))
+        label, color, style = STYLES.get(metric) or (
+            metric.replace("_", " "), next(other_colors), "-")
         (line,) = top.plot(curve["u"], curve[column], style, color=color, label=label, linewidth=1.6)
         best = min(range(len(curve["u"])), key=lambda i: curve[column][i])
         top.plot(curve["u"][best], curve[column][best], "o", color=line.get_color(), markersize=6,
@@ -71,7 +78,10 @@ def draw(curves, column, title):
     top.set_title(title, fontsize=11, parse_math=False)
     top.set_ylabel(LABELS[column])
     bottom.set_xlabel("Interpolation parameter u  (0: start, 1: reference)")
-    top.legend(frameon=False, fontsize=9)
+    # Room for the legend above the curves.
+    low, high = top.get_ylim()
+    top.set_ylim(low, high + (0.06 + 0.06 * ((len(curves) + 1) // 2)) * (high - low))
+    top.legend(frameon=False, fontsize=9, ncol=2, loc="upper center")
     if rows == 1:
         return figure
     bottom.axhline(0, color="0.4", linewidth=0.8)
