@@ -5,7 +5,7 @@
 # input: tools/demo.sh --scene=straight_street, or --kitti_root=DIR --sequence=00 --frame=95.
 set -euo pipefail
 root=$(cd "$(dirname "$0")/.." && pwd)  # The caller's folder stays: inputs may be relative to it.
-"$root/tools/build.sh" release
+"$root/tools/build.sh" release programs
 if [ $# -eq 0 ]; then
   set -- --scene=highway_overtaking
   expect="expected here: traffic pulls every minimum away from u = 1, and registration ends off the truth; see docs/experiments.md, and try: tools/demo.sh --scene=right_turn, or --scene=highway_overtaking --octree_voxel_m=0.1"
