@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The programs as users run them: results, and one sentence and an exit code for bad input.
+// The programs as users run them.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -13,6 +13,7 @@
 #include "src/common/text.h"
 #include "src/io/point_files.h"
 #include "src/io/transform.h"
+#include "tests/apps/apps_fixture.h"
 #include "tests/support/real_scans.h"
 #include "tests/support/run_program.h"
 #include "tests/support/scenes.h"
@@ -27,50 +28,8 @@ using testing_support::Outcome;
 using testing_support::ReadCsv;
 using testing_support::ReadFile;
 using testing_support::RunProgram;
+using Apps = testing_support::AppsFixture;
 using testing_support::TemporaryFolder;
-
-/// A room seen twice, 0.3 m apart, as files; and a small KITTI folder.
-class Apps : public testing::Test {
- protected:
-  Apps() {
-    const SE3d T = SE3d::Exp((Vec6() << 0, 0, 0.03, 0.3, 0.05, 0).finished());
-    const PointCloud target = testing_support::Room(3000, 1, SE3d(), 0.005);
-    const PointCloud source = testing_support::Room(3000, 2, T.Inverse(), 0.005);
-    WritePly(folder_.path() / "target.ply", target);
-    WritePly(folder_.path() / "source.ply", source);
-    folder_.Write("truth.txt", FormatTransform(T));
-    WriteBin("kitti/sequences/00/velodyne/000000.bin", target);
-    WriteBin("kitti/sequences/00/velodyne/000001.bin", source);
-    folder_.Write("kitti/sequences/00/calib.txt", "Tr: 1 0 0 0 0 1 0 0 0 0 1 0\n");
-    std::string row = FormatTransform(T).substr(0, FormatTransform(T).find("\n0 0 0 1"));
-    std::replace(row.begin(), row.end(), '\n', ' ');
-    folder_.Write("kitti/poses/00.txt", "1 0 0 0 0 1 0 0 0 0 1 0\n" + row + "\n");
-  }
-
-  void WriteBin(const std::string& name, const PointCloud& cloud) const {
-    std::string bytes;
-    for (std::size_t i = 0; i < cloud.size(); ++i) {
-      const float record[] = {cloud.x[i], cloud.y[i], cloud.z[i], 0.5F};
-      bytes.append(reinterpret_cast<const char*>(record), sizeof record);
-    }
-    folder_.Write(name, bytes);
-  }
-
-  std::string Path(const std::string& name) const { return (folder_.path() / name).string(); }
-
-  std::vector<std::string> Files(std::vector<std::string> more = {}) const {
-    more.insert(more.begin(), {"--source=" + Path("source.ply"), "--target=" + Path("target.ply"),
-                               "--ground_truth=" + Path("truth.txt"), "--out=" + Path("out")});
-    return more;
-  }
-  std::vector<std::string> Kitti(std::vector<std::string> more = {}) const {
-    more.insert(more.begin(), {"--kitti_root=" + Path("kitti"), "--frame=1", "--out=" + Path("out"),
-                               "--samples=4"});
-    return more;
-  }
-
-  TemporaryFolder folder_;
-};
 
 TEST_F(Apps, LandscapeWritesTablesFiguresAndManifest) {
   const Outcome outcome = RunProgram("landscape", Files({"--samples=31"}));
@@ -195,22 +154,6 @@ TEST_F(Apps, CapsRecoverTheRingsTheyNeed) {
   EXPECT_EQ(outcome.code, 0) << outcome.err;
 }
 
-TEST_F(Apps, SimulationsStayAwayFromMeasuredData) {
-  const std::string poses = ReadFile(Path("kitti/poses/00.txt"));
-  ExpectRefusal(RunProgram("simulate", {"--scene=highway", "--out=" + Path("kitti")}), 2,
-                "not simulated here");
-  std::filesystem::remove_all(Path("kitti/sequences/00/velodyne"));
-  ExpectRefusal(RunProgram("simulate", {"--kitti_root=" + Path("kitti"), "--sequence=00",
-                                        "--frames=0:1", "--out=" + Path("kitti")}),
-                2, "not simulated here");
-  EXPECT_EQ(ReadFile(Path("kitti/poses/00.txt")), poses);
-  // A drive of 30 cm has a street as well.
-  EXPECT_EQ(RunProgram("simulate", {"--kitti_root=" + Path("kitti"), "--sequence=00",
-                                    "--azimuth_step_deg=2", "--out=" + Path("drive")})
-                .code,
-            0);
-}
-
 TEST_F(Apps, ReverseGoesTheOtherWay) {
   const Outcome outcome = RunProgram("register", Files({"--reverse"}));
   ASSERT_EQ(outcome.code, 0) << outcome.err;
@@ -288,108 +231,6 @@ TEST(AppsListMetrics, NamesAll) {
   for (const char* name : {"point_to_point", "point_to_plane", "symmetric_rotated", "two_plane"}) {
     EXPECT_THAT(outcome.out, HasSubstr(name));
   }
-}
-
-TEST_F(Apps, WrongCommandLines) {
-  ExpectRefusal(RunProgram("landscape", {}), 1, "expected --scene=NAME, or --kitti_root=DIR");
-  ExpectRefusal(RunProgram("landscape", Files({"stray"})), 1, "stray argument \"stray\"");
-  ExpectRefusal(RunProgram("landscape", Files({"--nonsense=1"})), 1, "nonsense");
-  ExpectRefusal(RunProgram("landscape", Files({"--samples=1"})), 1,
-                "samples 1: expected at least 2");
-  ExpectRefusal(RunProgram("landscape", Files({"--u_min=2", "--u_max=2"})), 1,
-                "expected u_min below");
-  ExpectRefusal(RunProgram("landscape", Files({"--metrics=point_to_pint"})), 1,
-                "expected one of point_to_point, point_to_plane, symmetric");
-  ExpectRefusal(RunProgram("landscape", Files({"--metrics="})), 1, "expected at least one metric");
-  ExpectRefusal(RunProgram("landscape", Files({"--path=spline"})), 1, "lerp_slerp, geodesic");
-  ExpectRefusal(RunProgram("landscape", Files({"--normal_neighbors=2"})), 1, "expected at least 3");
-  ExpectRefusal(RunProgram("landscape", Files({"--max_distance_m=-1"})), 1,
-                "expected a number of at least 0");
-  ExpectRefusal(RunProgram("landscape", Files({"--threads=-2"})), 1, "--threads=-2");
-  ExpectRefusal(RunProgram("landscape", Files({"--kitti_root=x"})), 1, "expected one of them");
-  ExpectRefusal(RunProgram("landscape", {"--kitti_root=x", "--frame=0"}), 1,
-                "no scan comes before it");
-  ExpectRefusal(RunProgram("landscape", {"--kitti_root=x"}), 1, "no --frame");
-  ExpectRefusal(RunProgram("landscape", Files({"--metrics=symmetric,,two_plane"})), 1,
-                "single commas");
-  ExpectRefusal(RunProgram("register", Files({"--loss=hubert"})), 1, "none, huber");
-  ExpectRefusal(RunProgram("register", Files({"--loss_scale_m=0", "--loss=huber"})), 1,
-                "expected 1e-6 to 1e6");
-  ExpectRefusal(RunProgram("landscape", Files({"--loss_scale_m=1e-200", "--loss=tolerant"})), 1,
-                "expected 1e-6 to 1e6");
-  ExpectRefusal(RunProgram("landscape", Files({"--frozen_u=nan"})), 1, "--frozen_u");
-  ExpectRefusal(RunProgram("landscape", Files({"--samples=2000000000"})), 1, "at most 1e6");
-  ExpectRefusal(RunProgram("landscape", Files({"--u_min=-1e308"})), 1, "within 1e6");
-  ExpectRefusal(RunProgram("landscape", Files({"--out="})), 1, "--out=: expected a folder");
-  ExpectRefusal(RunProgram("landscape", Files({"--metrics=symmetric,symmetric"})), 1,
-                "each metric");
-  ExpectRefusal(RunProgram("landscape", Kitti({"--target_frame=1"})), 1, "another scan");
-  ExpectRefusal(RunProgram("register", Files({"--start_m=inf"})), 1, "--start_m=inf");
-  ExpectRefusal(
-      RunProgram("register", Files({"--reassociation=every_evaluation", "--max_distance_m=1"})), 1,
-      "expected every_step where pairs are rejected");
-  ExpectRefusal(RunProgram("register", Files({"--weights=1,2"})), 1, "one weight per metric");
-  ExpectRefusal(RunProgram("register", Files({"--weights=inf"})), 1, "positive numbers");
-  ExpectRefusal(
-      RunProgram("register", Files({"--reassociation=every_evaluation", "--metrics=edge_to_line"})),
-      1, "fitted");
-  ExpectRefusal(RunProgram("landscape", Files({"--max_normal_angle_deg=200"})), 1, "at most 180");
-  ExpectRefusal(RunProgram("landscape", Files({"--region_median_factor=-2"})), 1, "positive");
-  ExpectRefusal(RunProgram("landscape", Files({"--filter_estimate=ground_thruth"})), 1,
-                "identity, ground_truth or a file");
-  ExpectRefusal(RunProgram("filter_bias", Files({"--loss=cauchy"})), 1, "--loss=cauchy");
-  ExpectRefusal(RunProgram("register", Files({"--reassociation=never"})), 1, "every_step");
-  ExpectRefusal(RunProgram("register", Files({"--max_iterations=0"})), 1, "--max_iterations");
-  auto no_truth = Files({"--starts=5"});
-  no_truth.erase(no_truth.begin() + 2);
-  EXPECT_EQ(RunProgram("register", no_truth).code, 1);
-  no_truth.back() = "--samples=5";
-  EXPECT_EQ(RunProgram("landscape", no_truth).code, 1);
-  EXPECT_FALSE(std::filesystem::exists(Path("out/curves.csv")));
-}
-
-TEST_F(Apps, BrokenData) {
-  auto files = Files();
-  files[0] = "--source=" + Path("nothing.ply");
-  ExpectRefusal(RunProgram("landscape", files), 2, "nothing.ply: cannot be read");
-  folder_.Write("scaled.txt", "2 0 0 0 0 2 0 0 0 0 2 0 0 0 0 1");
-  files = Files({"--ground_truth=" + Path("scaled.txt")});
-  ExpectRefusal(RunProgram("landscape", files), 2, "scaled.txt: the matrix is not rigid");
-  folder_.Write("file", "");
-  ExpectRefusal(RunProgram("landscape", Files({"--out=" + Path("file")})), 2, "expected a folder");
-
-  ExpectRefusal(RunProgram("landscape", Kitti({"--sequence=77"})), 2,
-                "sequences/77: no such folder");
-  ExpectRefusal(RunProgram("landscape", Kitti({"--frame=2"})), 2,
-                "2 rows; expected a row for frame 2");
-  const std::string scan = "kitti/sequences/00/velodyne/000001.bin";
-  const std::string whole = ReadFile(Path(scan));
-  folder_.Write(scan, whole.substr(0, 1000));
-  ExpectRefusal(RunProgram("landscape", Kitti()), 2, "1000 bytes; expected a multiple of 16");
-  folder_.Write(scan, "");
-  ExpectRefusal(RunProgram("landscape", Kitti()), 2, "no usable point among 0");
-  folder_.Write(scan, whole);
-  folder_.Write("kitti/sequences/00/calib.txt", "P0: 1 0 0 0 0 1 0 0 0 0 1 0\n");
-  ExpectRefusal(RunProgram("landscape", Kitti()), 2, "no line begins with \"Tr:\"");
-  EXPECT_FALSE(std::filesystem::exists(Path("out/curves.csv")));
-}
-
-TEST_F(Apps, NanPointsAreDroppedAndCounted) {
-  PointCloud cloud = testing_support::Room(3000, 2);
-  cloud.x[5] = NAN;
-  cloud.x[6] = cloud.y[6] = cloud.z[6] = 0;
-  WriteBin("kitti/sequences/00/velodyne/000001.bin", cloud);
-  const Outcome outcome = RunProgram("landscape", Kitti());
-  EXPECT_EQ(outcome.code, 0) << outcome.err;
-  EXPECT_THAT(outcome.out, HasSubstr("2998 points (dropped: 1 not finite, 1 at the origin)"));
-}
-
-TEST_F(Apps, NoCorrespondenceLeft) {
-  ExpectRefusal(RunProgram("landscape", Files({"--max_distance_m=1e-9"})), 3,
-                "no correspondence is left for");
-  ExpectRefusal(RunProgram("register", Files({"--max_distance_m=1e-9"})), 3,
-                "No pair of points is left");
-  EXPECT_FALSE(std::filesystem::exists(Path("out/T_target_source.txt")));
 }
 
 TEST(AppsRealData, LastCostOfRegisterIsTheLandscapesOn0095) {
