@@ -139,9 +139,6 @@ int Simulate(const std::string& flags) {
 }
 
 TEST_F(Dataset, TheProgramAnswersMistakesWithItsExitCode) {
-  if (!fs::exists(fs::path(ICPSCAPE_BIN_DIR) / "icpscape-simulate")) {
-    GTEST_SKIP() << "icpscape-simulate is not built";
-  }
   const std::string out = " --out=" + root_.string();
   EXPECT_EQ(Simulate("--scene=highway" + out), 0);
   EXPECT_EQ(Simulate("--scene=motorway" + out), 1);
@@ -156,9 +153,6 @@ TEST_F(Dataset, TheProgramAnswersMistakesWithItsExitCode) {
 }
 
 TEST_F(Dataset, AWrittenSceneIsTheSceneItself) {
-  if (!fs::exists(fs::path(ICPSCAPE_BIN_DIR) / "icpscape-simulate")) {
-    GTEST_SKIP() << "icpscape-simulate is not built";
-  }
   ASSERT_EQ(Simulate("--scene=right_turn --seed=4 --out=" + root_.string()), 0);
   const SimulatedPair pair = SimulatePair("right_turn", 4, LidarOptions(), 2);
   const KittiSequence sequence(root_, "right_turn");
