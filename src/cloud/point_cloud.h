@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "residuals/lie.h"
-#include "src/neighbors/neighbor_search.h"
+#include "src/neighbors/points_view.h"
 
 namespace icpscape {
 

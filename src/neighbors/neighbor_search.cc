@@ -2,146 +2,148 @@
 #include "src/neighbors/neighbor_search.h"
 
 #include <algorithm>
-#include <cmath>
 #include <limits>
-#include <nanoflann.hpp>
+
+#include "src/neighbors/kd_tree.h"
+#include "src/neighbors/search_kernels.h"
 
 namespace icpscape {
 namespace {
 
-struct Adaptor {
-  PointsView points;
+constexpr float kNoLimit = std::numeric_limits<float>::max();
 
-  std::size_t kdtree_get_point_count() const { return points.size; }
-  float kdtree_get_pt(std::size_t index, std::size_t axis) const {
-    return axis == 0 ? points.x[index] : axis == 1 ? points.y[index] : points.z[index];
-  }
-  template <class Box>
-  bool kdtree_get_bbox(Box& /*box*/) const {
-    return false;
-  }
-};
-
-using Tree = nanoflann::KDTreeSingleIndexAdaptor<nanoflann::L2_Simple_Adaptor<float, Adaptor>,
-                                                 Adaptor, 3, std::int32_t>;
-
-constexpr float kInfinity = std::numeric_limits<float>::infinity();
-
-bool Before(const Neighbor& a, const Neighbor& b) {
-  return a.squared_distance < b.squared_distance ||
-         (a.squared_distance == b.squared_distance && a.index < b.index);
+PointsView One(const Eigen::Vector3f& query) {
+  return {query.data(), query.data() + 1, query.data() + 2, 1};
 }
 
-// The result sets below answer worstDist() with the next larger float: the tree skips what is not
-// below that, and a point at an equal distance must still be seen, in case its index is lower.
+// Room that a thread keeps from call to call.
+struct Scratch {
+  struct alignas(64) Vector {
+    float lanes[kWidestVector];
+  };
+  std::vector<Vector> vectors;
+  std::vector<std::int32_t> points;
+  std::vector<std::int32_t> index;
+  std::vector<float> squared_distance;
 
-class NearestSet {
- public:
-  using DistanceType = float;
-  explicit NearestSet(float limit) { best_.squared_distance = limit; }
-  std::size_t size() const { return best_.index >= 0 ? 1 : 0; }
-  bool full() const { return true; }
-  float worstDist() const { return std::nextafter(best_.squared_distance, kInfinity); }
-  bool addPoint(float distance, std::int32_t index) {
-    const Neighbor candidate{index, distance};
-    if (distance <= best_.squared_distance && (best_.index < 0 || Before(candidate, best_))) {
-      best_ = candidate;
+  float* Floats(int k) {
+    const std::size_t needed = ScratchFloats(k) / kWidestVector;
+    if (vectors.size() < needed) {
+      vectors.resize(needed);
     }
-    return true;
+    return vectors.data()->lanes;
   }
-  const Neighbor& best() const { return best_; }
-
- private:
-  Neighbor best_;
+  std::int32_t* Points(const KdTreeView& tree) {
+    const auto needed = static_cast<std::size_t>(tree.num_points) + 1;
+    if (points.size() < needed) {
+      points.resize(needed);
+    }
+    return points.data();
+  }
 };
 
-class KNearestSet {
- public:
-  using DistanceType = float;
-  KNearestSet(std::size_t k, std::vector<Neighbor>* out) : k_(k), out_(out) { out_->clear(); }
-  std::size_t size() const { return out_->size(); }
-  bool full() const { return size() == k_; }
-  float worstDist() const {
-    return full() ? std::nextafter(out_->back().squared_distance, kInfinity) : kInfinity;
-  }
-  bool addPoint(float distance, std::int32_t index) {
-    const Neighbor candidate{index, distance};
-    if (full()) {
-      if (!Before(candidate, out_->back())) {
-        return true;
-      }
-      out_->pop_back();
-    }
-    out_->insert(std::upper_bound(out_->begin(), out_->end(), candidate, Before), candidate);
-    return true;
-  }
+Scratch& ThisThreadsScratch() {
+  thread_local Scratch scratch;
+  return scratch;
+}
 
- private:
-  std::size_t k_;
-  std::vector<Neighbor>* out_;
-};
-
-class RadiusSet {
- public:
-  using DistanceType = float;
-  RadiusSet(float squared_radius, std::vector<Neighbor>* out)
-      : squared_radius_(squared_radius), out_(out) {
-    out_->clear();
-  }
-  std::size_t size() const { return out_->size(); }
-  bool full() const { return true; }
-  float worstDist() const { return std::nextafter(squared_radius_, kInfinity); }
-  bool addPoint(float distance, std::int32_t index) {
-    if (distance <= squared_radius_) {
-      out_->push_back({index, distance});
-    }
-    return true;
-  }
-
- private:
-  float squared_radius_;
-  std::vector<Neighbor>* out_;
-};
+MomentsView View(Neighborhoods* n) {
+  return {n->count.data(), n->nearest.data(), n->farthest_squared_distance.data(),
+          n->x.data(),     n->y.data(),       n->z.data(),
+          n->xx.data(),    n->xy.data(),      n->xz.data(),
+          n->yy.data(),    n->yz.data(),      n->zz.data()};
+}
 
 }  // namespace
 
 struct NeighborSearch::Impl {
   explicit Impl(const PointsView& points)
-      : adaptor{points}, tree(3, adaptor, nanoflann::KDTreeSingleIndexAdaptorParams(10)) {}
+      : tree(points), kernels(SearchKernelsAt(ActiveSimdLevel())) {}
 
-  template <class Set>
-  void Find(const Eigen::Vector3f& query, Set* set) const {
-    if (adaptor.points.size > 0) {
-      tree.findNeighbors(*set, query.data(), nanoflann::SearchParams());
-    }
+  void Moments(const PointsView& queries, int k, float limit, Neighborhoods* out) const {
+    const KdTreeView view = tree.View();
+    Scratch& scratch = ThisThreadsScratch();
+    out->Resize(queries.size);
+    kernels.moments(view, queries, k, limit, scratch.Floats(std::min(k, view.num_points)),
+                    scratch.Points(view), View(out));
   }
 
-  Adaptor adaptor;
-  Tree tree;
+  KdTree tree;
+  const SearchKernels& kernels;
 };
 
-NeighborSearch::NeighborSearch(const PointsView& points) : impl_(std::make_unique<Impl>(points)) {}
-NeighborSearch::~NeighborSearch() = default;
-NeighborSearch::NeighborSearch(NeighborSearch&&) noexcept = default;
-NeighborSearch& NeighborSearch::operator=(NeighborSearch&&) noexcept = default;
+NeighborSearch::NeighborSearch(const PointsView& points)
+    : impl_(std::make_shared<const Impl>(points)) {}
+
+const std::vector<std::int32_t>& NeighborSearch::Order() const { return impl_->tree.index(); }
+
+PointsView NeighborSearch::OrderedPoints() const {
+  const KdTreeView tree = impl_->tree.View();
+  return {tree.x, tree.y, tree.z, static_cast<std::size_t>(tree.num_points)};
+}
+
+void NeighborSearch::Nearest(const PointsView& queries, float max_squared_distance,
+                             std::int32_t* index, float* squared_distance) const {
+  impl_->kernels.nearest(impl_->tree.View(), queries, std::min(max_squared_distance, kNoLimit),
+                         index, squared_distance);
+}
 
 Neighbor NeighborSearch::Nearest(const Eigen::Vector3f& query, float max_squared_distance) const {
-  NearestSet set(max_squared_distance);
-  impl_->Find(query, &set);
-  return set.best();
+  Neighbor found;
+  Nearest(One(query), max_squared_distance, &found.index, &found.squared_distance);
+  return found.index < 0 ? Neighbor() : found;
+}
+
+void NeighborSearch::KNearest(const PointsView& queries, int k,
+                              std::vector<Neighbor>* neighbors) const {
+  k = std::max(k, 1);
+  const std::size_t size = queries.size * static_cast<std::size_t>(k);
+  Scratch& scratch = ThisThreadsScratch();
+  scratch.index.resize(size);
+  scratch.squared_distance.resize(size);
+  impl_->kernels.k_nearest(impl_->tree.View(), queries, k, kNoLimit, scratch.Floats(k),
+                           scratch.index.data(), scratch.squared_distance.data());
+  neighbors->resize(size);
+  for (std::size_t i = 0; i < size; ++i) {
+    (*neighbors)[i] = {scratch.index[i], scratch.squared_distance[i]};
+  }
 }
 
 void NeighborSearch::KNearest(const Eigen::Vector3f& query, int k,
                               std::vector<Neighbor>* neighbors) const {
-  KNearestSet set(static_cast<std::size_t>(std::max(k, 1)), neighbors);
-  impl_->Find(query, &set);
+  KNearest(One(query), std::min(k, std::max(impl_->tree.View().num_points, 1)), neighbors);
+  while (!neighbors->empty() && neighbors->back().index < 0) {
+    neighbors->pop_back();
+  }
 }
 
 void NeighborSearch::WithinRadius(const Eigen::Vector3f& query, float radius_m,
                                   std::vector<Neighbor>* neighbors) const {
-  RadiusSet set(radius_m * radius_m, neighbors);
-  impl_->Find(query, &set);
-  std::sort(neighbors->begin(), neighbors->end(), Before);
+  const float limit = std::min(radius_m * radius_m, kNoLimit);
+  const KdTreeView tree = impl_->tree.View();
+  std::int32_t* const points = ThisThreadsScratch().Points(tree);
+  const std::int32_t found = impl_->kernels.within(tree, One(query), limit, points);
+  neighbors->clear();
+  for (std::int32_t i = 0; i < found; ++i) {
+    const float dx = query.x() - tree.x[points[i]];
+    const float dy = query.y() - tree.y[points[i]];
+    const float dz = query.z() - tree.z[points[i]];
+    neighbors->push_back({tree.index[points[i]], (dx * dx + dy * dy) + dz * dz});
+  }
+  std::sort(neighbors->begin(), neighbors->end(), [](const Neighbor& a, const Neighbor& b) {
+    return a.squared_distance < b.squared_distance ||
+           (a.squared_distance == b.squared_distance && a.index < b.index);
+  });
+}
+
+void NeighborSearch::KNearest(const PointsView& queries, int k,
+                              Neighborhoods* neighborhoods) const {
+  impl_->Moments(queries, std::max(k, 1), kNoLimit, neighborhoods);
+}
+
+void NeighborSearch::WithinRadius(const PointsView& queries, float radius_m,
+                                  Neighborhoods* neighborhoods) const {
+  impl_->Moments(queries, 0, std::min(radius_m * radius_m, kNoLimit), neighborhoods);
 }
 
 }  // namespace icpscape

@@ -7,6 +7,9 @@
 #include <memory>
 #include <vector>
 
+#include "src/neighbors/neighborhoods.h"
+#include "src/neighbors/points_view.h"
+
 namespace icpscape {
 
 /// A found point: its index and its squared distance to the query (m^2).
@@ -15,39 +18,51 @@ struct Neighbor {
   float squared_distance = 0;
 };
 
-/// Three arrays of equal length; the caller keeps them alive. All values finite.
-struct PointsView {
-  const float* x = nullptr;
-  const float* y = nullptr;
-  const float* z = nullptr;
-  std::size_t size = 0;
-};
-
-/// Exact nearest neighbours among a fixed set of points.
+/// Exact nearest neighbours among a fixed set of points, which is copied. Copies of the search
+/// share them.
 ///
 /// The squared distance is (dx*dx + dy*dy) + dz*dz in float without fused multiply-add, so that
-/// every machine finds the same neighbours; ties go to the lower index. Safe to query from many
-/// threads at once.
+/// every machine and every SIMD level finds the same neighbours; ties go to the lower index. A
+/// point with a NaN or an infinity is nobody's neighbour, and such a query has none. Safe to query
+/// from many threads at once.
+///
+/// Batches are what is fast: queries are searched in packets, which pays where consecutive queries
+/// lie close together, as points do in the Order() of their own search. See README.md.
 class NeighborSearch {
  public:
   explicit NeighborSearch(const PointsView& points);
-  ~NeighborSearch();
-  NeighborSearch(NeighborSearch&&) noexcept;
-  NeighborSearch& operator=(NeighborSearch&&) noexcept;
 
   /// The nearest point; index -1 where there is none within max_squared_distance (inclusive).
   Neighbor Nearest(const Eigen::Vector3f& query, float max_squared_distance) const;
 
+  /// The same for every query, into arrays of queries.size; squared_distance is defined only where
+  /// an index was found.
+  void Nearest(const PointsView& queries, float max_squared_distance, std::int32_t* index,
+               float* squared_distance) const;
+
   /// The k nearest points (fewer if there are fewer), nearest first.
   void KNearest(const Eigen::Vector3f& query, int k, std::vector<Neighbor>* neighbors) const;
+
+  /// The same for every query: k entries each, of index -1 where there are fewer.
+  void KNearest(const PointsView& queries, int k, std::vector<Neighbor>* neighbors) const;
 
   /// All points within the radius (inclusive), nearest first.
   void WithinRadius(const Eigen::Vector3f& query, float radius_m,
                     std::vector<Neighbor>* neighbors) const;
 
+  /// Moments of every query's k nearest points (fewer if there are fewer), or of all within a
+  /// radius, without listing them: several times faster.
+  void KNearest(const PointsView& queries, int k, Neighborhoods* neighborhoods) const;
+  void WithinRadius(const PointsView& queries, float radius_m, Neighborhoods* neighborhoods) const;
+
+  /// The indices of all finite points, such that what is near in space is near in the list.
+  const std::vector<std::int32_t>& Order() const;
+  /// The points in that order; valid while a copy of this object lives.
+  PointsView OrderedPoints() const;
+
  private:
   struct Impl;
-  std::unique_ptr<Impl> impl_;
+  std::shared_ptr<const Impl> impl_;
 };
 
 }  // namespace icpscape

@@ -90,9 +90,9 @@ TEST(NeighborSearch, EmptyCloudHasNoNeighbors) {
   const NeighborSearch search(empty.View());
   std::vector<Neighbor> found;
   EXPECT_EQ(search.Nearest({0, 0, 0}, 1e30F).index, -1);
-  search.KNearest({0, 0, 0}, 5, &found);
+  search.KNearest(Eigen::Vector3f(0, 0, 0), 5, &found);
   EXPECT_TRUE(found.empty());
-  search.WithinRadius({0, 0, 0}, 5, &found);
+  search.WithinRadius(Eigen::Vector3f(0, 0, 0), 5, &found);
   EXPECT_TRUE(found.empty());
 }
 

@@ -1,0 +1,35 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#ifndef ICPSCAPE_SRC_NEIGHBORS_KD_TREE_H_
+#define ICPSCAPE_SRC_NEIGHBORS_KD_TREE_H_
+
+#include <vector>
+
+#include "src/neighbors/kd_tree_view.h"
+#include "src/neighbors/points_view.h"
+
+namespace icpscape {
+
+/// A kd-tree over fixed points: split at the median of the longest side, boxes as tight as the
+/// points allow, points copied leaf by leaf. Points with a NaN or an infinity are left out.
+class KdTree {
+ public:
+  explicit KdTree(const PointsView& points);
+
+  /// Valid while the tree lives.
+  KdTreeView View() const;
+
+  /// The points' indices, leaf by leaf: what is near in space is near in this list.
+  const std::vector<std::int32_t>& index() const { return index_; }
+
+ private:
+  class Builder;
+
+  std::vector<KdTreeNode> nodes_;
+  std::vector<KdTreeLeaf> leaves_;
+  std::vector<float> x_, y_, z_;
+  std::vector<std::int32_t> index_;
+};
+
+}  // namespace icpscape
+
+#endif  // ICPSCAPE_SRC_NEIGHBORS_KD_TREE_H_

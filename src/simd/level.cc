@@ -1,0 +1,61 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "src/simd/level.h"
+
+#include <cstdlib>
+
+#include "src/common/error.h"
+#include "src/common/text.h"
+
+namespace icpscape {
+namespace {
+
+std::vector<SimdLevel> DetectLevels() {
+  std::vector<SimdLevel> levels = {SimdLevel::kBaseline};
+#ifdef __x86_64__
+  if (__builtin_cpu_supports("avx2")) {
+    levels.push_back(SimdLevel::kAvx2);
+    if (__builtin_cpu_supports("avx512f") && __builtin_cpu_supports("avx512bw") &&
+        __builtin_cpu_supports("avx512dq") && __builtin_cpu_supports("avx512vl")) {
+      levels.push_back(SimdLevel::kAvx512);
+    }
+  }
+#endif
+  return levels;
+}
+
+}  // namespace
+
+const char* SimdLevelName(SimdLevel level) {
+  switch (level) {
+    case SimdLevel::kBaseline:
+      return "baseline";
+    case SimdLevel::kAvx2:
+      return "avx2";
+    case SimdLevel::kAvx512:
+      return "avx512";
+  }
+  return "";
+}
+
+const std::vector<SimdLevel>& SupportedSimdLevels() {
+  static const std::vector<SimdLevel> levels = DetectLevels();
+  return levels;
+}
+
+SimdLevel ActiveSimdLevel() {
+  const char* wanted = std::getenv("ICPSCAPE_SIMD");
+  if (wanted == nullptr || *wanted == '\0') {
+    return SupportedSimdLevels().back();
+  }
+  std::vector<std::string> names;
+  for (const SimdLevel level : SupportedSimdLevels()) {
+    if (SimdLevelName(level) == std::string(wanted)) {
+      return level;
+    }
+    names.emplace_back(SimdLevelName(level));
+  }
+  throw UsageError("ICPSCAPE_SIMD=" + std::string(wanted) + ": expected one of " + Join(names) +
+                   ", which this machine can run.");
+}
+
+}  // namespace icpscape
