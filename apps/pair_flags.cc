@@ -247,7 +247,7 @@ ScanPair LoadPair(const std::vector<std::string>& metrics, Manifest* manifest) {
   }
   bool features = false;
   for (const std::string& metric : metrics) {
-    needs |= MetricNeeds(metric);
+    needs |= MetricFunctionsOf(metric).needs;
     features |= NeedsFeatures(metric);
   }
   if ((needs & kSourceNormal) != 0) {

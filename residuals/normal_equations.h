@@ -28,6 +28,7 @@ struct NormalEquations {
   void Add(const Residual& r, const Jacobian& J) {
     AddScaled(r, J, 1.0);
     cost += 0.5 * r.squaredNorm();
+    ++num_correspondences;
   }
 
   /// The same under a loss: rho = {rho(s), rho'(s), rho''(s)} at s = |r|^2, as
@@ -35,8 +36,14 @@ struct NormalEquations {
   template <class Residual, class Jacobian>
   void Add(const Residual& r, const Jacobian& J, const double rho[3]) {
     AddScaled(r, J, rho[1]);
+    AddValue(rho);
+  }
+
+  /// The value alone, without derivatives.
+  void AddValue(const double rho[3]) {
     cost += 0.5 * rho[0];
     upward_loss |= rho[2] > 0;
+    ++num_correspondences;
   }
 
   /// Multiplies the objective by a weight (n stays).
@@ -68,7 +75,6 @@ struct NormalEquations {
         }
       }
     }
-    ++num_correspondences;
   }
 };
 

@@ -1,8 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "src/cloud/normals.h"
 
-#include <Eigen/Eigenvalues>
-#include <algorithm>
+#include <cstdint>
 #include <limits>
 
 #include "src/common/parallel.h"
@@ -11,72 +10,69 @@
 namespace icpscape {
 namespace {
 
-constexpr std::size_t kChunk = 1024;
-
-// Calls use(i, covariance, valid) for every point, from many threads.
+// Calls use(order, neighborhoods) for part after part of the cloud, from many threads: entry k of
+// the neighbourhoods, with centred products, is that of point order[k].
 template <class Use>
-void ForEachCovariance(const PointCloud& cloud, const NeighborhoodOptions& options, int threads,
-                       const Use& use) {
+void ForEachNeighborhoods(const PointCloud& cloud, const NeighborhoodOptions& options, int threads,
+                          const Use& use) {
   const NeighborSearch search(cloud.View());
-  const std::size_t chunks = (cloud.size() + kChunk - 1) / kChunk;
-  ParallelFor(chunks, threads, [&](std::size_t chunk) {
-    std::vector<Neighbor> neighbors;
-    const std::size_t end = std::min(cloud.size(), (chunk + 1) * kChunk);
-    for (std::size_t i = chunk * kChunk; i < end; ++i) {
-      const Eigen::Vector3f query(cloud.x[i], cloud.y[i], cloud.z[i]);
-      if (options.radius_m > 0) {
-        search.WithinRadius(query, static_cast<float>(options.radius_m), &neighbors);
-      } else {
-        search.KNearest(query, options.num_neighbors, &neighbors);
-      }
-      // Moments about the point, not the origin: no digits lost far out.
-      Vec3 sum = Vec3::Zero();
-      Mat3 squares = Mat3::Zero();
-      for (const Neighbor& neighbor : neighbors) {
-        const Vec3 d = cloud.Point(static_cast<std::size_t>(neighbor.index)) - cloud.Point(i);
-        sum += d;
-        squares += d * d.transpose();
-      }
-      const double count = static_cast<double>(neighbors.size());
-      const Vec3 mean = sum / count;
-      use(i, Mat3(squares / count - mean * mean.transpose()), neighbors.size() >= 3);
+  ForEachPart(search.Order().size(), threads, [&](std::size_t begin, std::size_t end) {
+    thread_local Neighborhoods neighborhoods;
+    const PointsView queries = search.OrderedPoints().Slice(begin, end);
+    if (options.radius_m > 0) {
+      search.WithinRadius(queries, static_cast<float>(options.radius_m), &neighborhoods);
+    } else {
+      search.KNearest(queries, options.num_neighbors, &neighborhoods);
     }
+    neighborhoods.CenterProducts();
+    use(search.Order().data() + begin, neighborhoods);
   });
 }
+
+constexpr int kFewestNeighbors = 3;
 
 }  // namespace
 
 std::vector<Eigen::Matrix3d> EstimateCovariances(const PointCloud& cloud,
                                                  const NeighborhoodOptions& options, int threads) {
-  std::vector<Eigen::Matrix3d> covariances(cloud.size());
-  ForEachCovariance(cloud, options, threads, [&](std::size_t i, const Mat3& C, bool valid) {
-    covariances[i] = valid ? C : Mat3::Constant(std::numeric_limits<double>::quiet_NaN());
-  });
+  std::vector<Eigen::Matrix3d> covariances(
+      cloud.size(), Mat3::Constant(std::numeric_limits<double>::quiet_NaN()));
+  ForEachNeighborhoods(cloud, options, threads,
+                       [&](const std::int32_t* order, const Neighborhoods& neighborhoods) {
+                         for (std::size_t k = 0; k < neighborhoods.size(); ++k) {
+                           if (neighborhoods.count[k] >= kFewestNeighbors) {
+                             covariances[static_cast<std::size_t>(order[k])] =
+                                 neighborhoods.Products(k) / neighborhoods.count[k];
+                           }
+                         }
+                       });
   return covariances;
 }
 
 std::size_t EstimateNormals(const NeighborhoodOptions& options, int threads, PointCloud* cloud) {
   const std::size_t size = cloud->size();
   std::vector<float> nx(size), ny(size), nz(size);
-  ForEachCovariance(*cloud, options, threads, [&](std::size_t i, const Mat3& C, bool valid) {
-    if (!valid) {
-      return;
-    }
-    Eigen::SelfAdjointEigenSolver<Mat3> eigen;
-    eigen.computeDirect(C);
-    // On a line every direction across it is as good: no normal. The closed form finds a double
-    // eigenvalue to about 1e-8 of the largest; a line 1 m long and 0.3 mm thick is still one.
-    if (!(eigen.eigenvalues()[1] > 1e-7 * eigen.eigenvalues()[2])) {
-      return;
-    }
-    Vec3 n = eigen.eigenvectors().col(0);
-    if (n.dot(cloud->Point(i)) > 0) {
-      n = -n;
-    }
-    nx[i] = static_cast<float>(n.x());
-    ny[i] = static_cast<float>(n.y());
-    nz[i] = static_cast<float>(n.z());
-  });
+  ForEachNeighborhoods(*cloud, options, threads,
+                       [&](const std::int32_t* order, const Neighborhoods& neighborhoods) {
+                         thread_local PrincipalAxes axes;
+                         axes.Compute(neighborhoods);
+                         for (std::size_t k = 0; k < neighborhoods.size(); ++k) {
+                           // On a line every direction across it is as good: no normal. A line 1 m
+                           // long and 0.3 mm thick is still one.
+                           if (neighborhoods.count[k] < kFewestNeighbors ||
+                               !(axes.middle[k] > 1e-7 * axes.largest[k])) {
+                             continue;
+                           }
+                           const auto i = static_cast<std::size_t>(order[k]);
+                           Vec3 n = axes.Smallest(k);
+                           if (n.dot(cloud->Point(i)) > 0) {
+                             n = -n;
+                           }
+                           nx[i] = static_cast<float>(n.x());
+                           ny[i] = static_cast<float>(n.y());
+                           nz[i] = static_cast<float>(n.z());
+                         }
+                       });
   cloud->nx = std::move(nx);
   cloud->ny = std::move(ny);
   cloud->nz = std::move(nz);

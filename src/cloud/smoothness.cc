@@ -15,7 +15,6 @@
 namespace icpscape {
 namespace {
 
-constexpr std::size_t kChunk = 1024;
 constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
 
 void Check(const SmoothnessOptions& options) {
@@ -99,15 +98,23 @@ void AmongNeighbors(const PointCloud& cloud, const SmoothnessOptions& options, i
   const NeighborSearch search(cloud.View());
   const bool by_count = options.neighborhood == SmoothnessNeighborhood::kKNearest;
   const auto wanted = static_cast<std::size_t>(by_count ? options.num_neighbors : 1);
-  ParallelFor((cloud.size() + kChunk - 1) / kChunk, threads, [&](std::size_t chunk) {
+  const std::vector<std::int32_t>& order = search.Order();
+  ForEachPart(order.size(), threads, [&](std::size_t begin, std::size_t end) {
+    std::vector<Neighbor> nearest;
     std::vector<Neighbor> found;
-    const std::size_t end = std::min(cloud.size(), (chunk + 1) * kChunk);
-    for (std::size_t i = chunk * kChunk; i < end; ++i) {
-      const Eigen::Vector3f query(cloud.x[i], cloud.y[i], cloud.z[i]);
+    const std::size_t k = wanted + 1;
+    if (by_count) {
+      search.KNearest(search.OrderedPoints().Slice(begin, end), static_cast<int>(k), &nearest);
+    }
+    for (std::size_t place = begin; place < end; ++place) {
+      const auto i = static_cast<std::size_t>(order[place]);
       if (by_count) {
-        search.KNearest(query, options.num_neighbors + 1, &found);
+        const auto first = nearest.begin() + static_cast<std::ptrdiff_t>((place - begin) * k);
+        found.assign(first, std::find_if(first, first + static_cast<std::ptrdiff_t>(k),
+                                         [](const Neighbor& n) { return n.index < 0; }));
       } else {
-        search.WithinRadius(query, static_cast<float>(options.radius_m), &found);
+        search.WithinRadius(Eigen::Vector3f(cloud.x[i], cloud.y[i], cloud.z[i]),
+                            static_cast<float>(options.radius_m), &found);
       }
       Sums sums(cloud, i);
       std::size_t count = 0;

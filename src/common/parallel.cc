@@ -35,4 +35,11 @@ void ParallelFor(std::size_t count, int threads, const std::function<void(std::s
   });
 }
 
+void ForEachPart(std::size_t count, int threads,
+                 const std::function<void(std::size_t begin, std::size_t end)>& body) {
+  ParallelFor((count + kPartSize - 1) / kPartSize, threads, [&](std::size_t part) {
+    body(part * kPartSize, std::min(count, (part + 1) * kPartSize));
+  });
+}
+
 }  // namespace icpscape

@@ -15,6 +15,12 @@ int HardwareThreads();
 /// result does not depend on the number of threads. The first exception is rethrown.
 void ParallelFor(std::size_t count, int threads, const std::function<void(std::size_t)>& body);
 
+/// Splits [0, count) into parts of kPartSize, whatever the number of threads, and calls
+/// body(begin, end) for each.
+constexpr std::size_t kPartSize = 2048;
+void ForEachPart(std::size_t count, int threads,
+                 const std::function<void(std::size_t begin, std::size_t end)>& body);
+
 }  // namespace icpscape
 
 #endif  // ICPSCAPE_SRC_COMMON_PARALLEL_H_

@@ -3,12 +3,12 @@
 
 #include <algorithm>
 #include <cmath>
-#include <map>
 #include <mutex>
 
 #include "src/common/error.h"
 #include "src/common/parallel.h"
 #include "src/common/text.h"
+#include "src/objective/pass.h"
 
 namespace icpscape {
 namespace {
@@ -32,7 +32,7 @@ void SetNumericSlopes(std::vector<CurvePoint>* points) {
 
 // Adds back to eps what the metric's terms already leave out.
 double LeftOut(const std::string& metric, PatchOffset offset, long n) {
-  if (MetricEpsilon(metric) != Epsilon::kSoftNorm || offset == PatchOffset::kPerTerm) {
+  if (MetricFunctionsOf(metric).epsilon != Epsilon::kSoftNorm || offset == PatchOffset::kPerTerm) {
     return 0;
   }
   return static_cast<double>(offset == PatchOffset::kNone ? n : n - 1);
@@ -113,39 +113,31 @@ std::vector<Curve> EvaluateCurves(const std::vector<Objective>& objectives, cons
   if (objectives.empty()) {
     return curves;
   }
-  const auto match = [&](const SE3d& T, int threads) {
-    std::map<const Matcher*, Matches> matches;
-    for (const Objective& objective : objectives) {
-      const auto [entry, is_new] = matches.try_emplace(&objective.matcher());
-      if (is_new) {
-        objective.matcher().Match(T, threads, &entry->second);
-      }
-    }
-    return matches;
-  };
-  std::map<const Matcher*, Matches> frozen;
+  std::vector<const Objective*> all;
+  for (const Objective& objective : objectives) {
+    all.push_back(&objective);
+  }
+  MatchesByMatcher frozen;
   if (options.frozen_u) {
-    frozen = match(path.Pose(*options.frozen_u), options.threads);
+    frozen = MatchAll(all, path.Pose(*options.frozen_u), options.threads);
   }
   std::mutex mutex;
   int done = 0;
   ParallelFor(static_cast<std::size_t>(options.samples), options.threads, [&](std::size_t i) {
     const double u = options.U(static_cast<int>(i));
     const SE3d T_u = path.Pose(u);
-    std::map<const Matcher*, Matches> own;
-    if (!options.frozen_u) {
-      own = match(T_u, 1);
-    }
+    std::vector<Evaluation> evaluations =
+        options.frozen_u ? EvaluateAll(all, T_u, frozen, Derivatives::kGradient, 1)
+                         : EvaluateAll(all, T_u, Derivatives::kGradient, 1);
     for (std::size_t m = 0; m < objectives.size(); ++m) {
-      const Matcher& matcher = objectives[m].matcher();
-      const Matches& matches = (options.frozen_u ? frozen : own).at(&matcher);
-      Evaluation evaluation = objectives[m].Evaluate(T_u, matches, 1);
+      Evaluation& evaluation = evaluations[m];
       if (evaluation.n() == 0) {
         throw ComputationError("no correspondence is left for " + objectives[m].metric() +
                                " at u = " + Number(u) + ".");
       }
       evaluation.epsilon += LeftOut(objectives[m].metric(), options.patch_offset, evaluation.n());
-      curves[m].points[i] = MakePoint(u, evaluation, matcher.source().size(), path.BodyTwist(u));
+      curves[m].points[i] =
+          MakePoint(u, evaluation, objectives[m].matcher().source().size(), path.BodyTwist(u));
     }
     if (progress) {
       const std::lock_guard<std::mutex> lock(mutex);

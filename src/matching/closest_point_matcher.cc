@@ -1,40 +1,42 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "src/matching/closest_point_matcher.h"
 
-#include <algorithm>
 #include <limits>
+#include <utility>
+#include <vector>
 
-#include "src/common/parallel.h"
+#include "src/neighbors/moved_points.h"
 
 namespace icpscape {
 
-std::size_t Matches::Count() const {
-  return static_cast<std::size_t>(
-      std::count_if(target_index.begin(), target_index.end(), [](int j) { return j >= 0; }));
-}
-
-ClosestPointMatcher::ClosestPointMatcher(const PointCloud& source, const PointCloud& target,
+ClosestPointMatcher::ClosestPointMatcher(SearchableCloud source, SearchableCloud target,
                                          const MatchingOptions& options)
-    : Matcher(source, target), options_(options), search_(target.View()) {
-  if (options_.reciprocal_epsilon_m) {
-    reciprocal_.emplace(source);
-  }
-}
+    : Matcher(std::move(source), std::move(target)), options_(options) {}
 
-void ClosestPointMatcher::Match(const SE3d& T, int threads, Matches* matches) const {
-  constexpr std::size_t kChunk = 2048;
+void ClosestPointMatcher::MatchPart(const SE3d& T, std::size_t begin, std::size_t end,
+                                    Matches* matches) const {
   const float gate = options_.max_distance_m > 0
                          ? static_cast<float>(options_.max_distance_m * options_.max_distance_m)
                          : std::numeric_limits<float>::max();
-  matches->target_index.resize(source().size());
-  ParallelFor((source().size() + kChunk - 1) / kChunk, threads, [&](std::size_t chunk) {
-    const std::size_t end = std::min(source().size(), (chunk + 1) * kChunk);
-    for (std::size_t i = chunk * kChunk; i < end; ++i) {
-      matches->target_index[i] = search_.Nearest(Query(T, source(), i), gate).index;
-    }
-  });
-  if (reciprocal_) {
-    reciprocal_->Reject(target(), T, *options_.reciprocal_epsilon_m, threads, matches);
+  thread_local MovedPoints moved;
+  thread_local std::vector<float> squared_distance;
+  moved.Move(T, searchable_source().search().OrderedPoints().Slice(begin, end));
+  matches->target_index.resize(end - begin);
+  squared_distance.resize(end - begin);
+  searchable_target().search().Nearest(moved.View(), gate, matches->target_index.data(),
+                                       squared_distance.data());
+}
+
+bool ClosestPointMatcher::Rejects() const {
+  MatchingOptions without_gate = options_;
+  without_gate.max_distance_m = 0;
+  return without_gate.Rejects();
+}
+
+void ClosestPointMatcher::Reject(const SE3d& T, int threads, Matches* matches) const {
+  if (options_.reciprocal_epsilon_m) {
+    RejectNotReciprocal(searchable_source(), target(), T, *options_.reciprocal_epsilon_m, threads,
+                        matches);
   }
   if (options_.max_normal_angle_rad > 0) {
     RejectByNormalAngle(source(), target(), T, options_.max_normal_angle_rad, matches);

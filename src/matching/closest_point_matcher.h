@@ -6,7 +6,6 @@
 
 #include "src/matching/matcher.h"
 #include "src/matching/rejection.h"
-#include "src/neighbors/neighbor_search.h"
 
 namespace icpscape {
 
@@ -38,16 +37,17 @@ struct MatchingOptions {
 /// point to T p, and then the rejections of the options.
 class ClosestPointMatcher final : public Matcher {
  public:
-  ClosestPointMatcher(const PointCloud& source, const PointCloud& target,
+  ClosestPointMatcher(SearchableCloud source, SearchableCloud target,
                       const MatchingOptions& options = {});
 
   unsigned Provides() const override { return kSourceNormal | kTargetNormal; }
-  void Match(const SE3d& T_target_source, int threads, Matches* matches) const override;
+  void MatchPart(const SE3d& T_target_source, std::size_t begin, std::size_t end,
+                 Matches* matches) const override;
+  bool Rejects() const override;
+  void Reject(const SE3d& T_target_source, int threads, Matches* matches) const override;
 
  private:
   MatchingOptions options_;
-  NeighborSearch search_;
-  std::optional<ReciprocalRejector> reciprocal_;
 };
 
 }  // namespace icpscape

@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "src/matching/local_fit_matcher.h"
 
-#include <Eigen/Eigenvalues>
 #include <algorithm>
+#include <utility>
 
 #include "src/common/error.h"
-#include "src/common/parallel.h"
 #include "src/common/text.h"
+#include "src/neighbors/moved_points.h"
 
 namespace icpscape {
 
@@ -29,9 +29,9 @@ FitAnchor FitAnchorFromName(const std::string& name) {
   return static_cast<FitAnchor>(IndexOfName("fit anchor", name, FitAnchorNames()));
 }
 
-LocalFitMatcher::LocalFitMatcher(Shape shape, const PointCloud& source, const PointCloud& target,
+LocalFitMatcher::LocalFitMatcher(Shape shape, SearchableCloud source, SearchableCloud target,
                                  const LocalFitOptions& options)
-    : Matcher(source, target), shape_(shape), options_(options), search_(target.View()) {
+    : Matcher(std::move(source), std::move(target)), shape_(shape), options_(options) {
   if (options.num_neighbors < 3) {
     throw UsageError("neighbours of a fit " + std::to_string(options.num_neighbors) +
                      ": expected at least 3.");
@@ -42,72 +42,51 @@ LocalFitMatcher::LocalFitMatcher(Shape shape, const PointCloud& source, const Po
   }
 }
 
-bool LocalFitMatcher::Fit(const Eigen::Vector3f& query, const std::vector<Neighbor>& neighbors,
-                          LocalFit* fit) const {
-  if (static_cast<int>(neighbors.size()) < options_.num_neighbors) {
+bool LocalFitMatcher::Accepts(const Neighborhoods& neighborhoods, const PrincipalAxes& axes,
+                              std::size_t i) const {
+  if (neighborhoods.count[i] < options_.num_neighbors) {
     return false;
   }
   const double gate = options_.max_neighbor_distance_m;
-  if (gate > 0 && neighbors.back().squared_distance > gate * gate) {
+  if (gate > 0 && neighborhoods.farthest_squared_distance[i] > gate * gate) {
     return false;
   }
-  const Vec3 origin = query.cast<double>();
-  Vec3 sum = Vec3::Zero();
-  Mat3 squares = Mat3::Zero();
-  for (const Neighbor& neighbor : neighbors) {
-    const Vec3 d = target().Point(static_cast<std::size_t>(neighbor.index)) - origin;
-    sum += d;
-    squares += d * d.transpose();
-  }
-  const double n = static_cast<double>(neighbors.size());
-  const Vec3 mean = sum / n;
-  Eigen::SelfAdjointEigenSolver<Mat3> eigen;
-  eigen.computeDirect(squares - n * mean * mean.transpose());
-  Vec3 lambda = eigen.eigenvalues().cwiseMax(0);  // Ascending.
-  switch (options_.eigenvalue_scale) {
-    case EigenvalueScale::kScatter:
-      break;
-    case EigenvalueScale::kOverN:
-      lambda /= n;
-      break;
-    case EigenvalueScale::kOverNMinusOne:
-      lambda /= n - 1;
-      break;
-  }
-  if (shape_ == Shape::kLine) {
-    if (!(lambda[2] > options_.eigenvalue_ratio * lambda[1])) {
-      return false;
-    }
-    fit->direction = eigen.eigenvectors().col(2);
-  } else {
-    if (!(lambda[1] > options_.eigenvalue_ratio * lambda[0] &&
-          lambda[0] < options_.max_smallest_eigenvalue_m2)) {
-      return false;
-    }
-    fit->direction = eigen.eigenvectors().col(0);
-  }
-  fit->anchor = options_.anchor == FitAnchor::kCentroid
-                    ? Vec3(origin + mean)
-                    : target().Point(static_cast<std::size_t>(neighbors.front().index));
-  return true;
+  const double n = neighborhoods.count[i];
+  const double divisor = options_.eigenvalue_scale == EigenvalueScale::kOverN           ? n
+                         : options_.eigenvalue_scale == EigenvalueScale::kOverNMinusOne ? n - 1
+                                                                                        : 1;
+  const double smallest = std::max(0.0, axes.smallest[i]) / divisor;
+  const double middle = std::max(0.0, axes.middle[i]) / divisor;
+  const double largest = std::max(0.0, axes.largest[i]) / divisor;
+  return shape_ == Shape::kLine ? largest > options_.eigenvalue_ratio * middle
+                                : middle > options_.eigenvalue_ratio * smallest &&
+                                      smallest < options_.max_smallest_eigenvalue_m2;
 }
 
-void LocalFitMatcher::Match(const SE3d& T, int threads, Matches* matches) const {
-  constexpr std::size_t kChunk = 1024;
-  matches->target_index.assign(source().size(), -1);
-  matches->fits.resize(source().size());
-  matches->area_patch = options_.triangle_leg_m * options_.triangle_leg_m;
-  ParallelFor((source().size() + kChunk - 1) / kChunk, threads, [&](std::size_t chunk) {
-    std::vector<Neighbor> neighbors;
-    const std::size_t end = std::min(source().size(), (chunk + 1) * kChunk);
-    for (std::size_t i = chunk * kChunk; i < end; ++i) {
-      const Eigen::Vector3f query = Query(T, source(), i);
-      search_.KNearest(query, options_.num_neighbors, &neighbors);
-      if (Fit(query, neighbors, &matches->fits[i])) {
-        matches->target_index[i] = neighbors.front().index;
-      }
+void LocalFitMatcher::MatchPart(const SE3d& T, std::size_t begin, std::size_t end,
+                                Matches* matches) const {
+  thread_local MovedPoints moved;
+  thread_local Neighborhoods neighborhoods;
+  thread_local PrincipalAxes axes;
+  moved.Move(T, searchable_source().search().OrderedPoints().Slice(begin, end));
+  const PointsView queries = moved.View();
+  searchable_target().search().KNearest(queries, options_.num_neighbors, &neighborhoods);
+  neighborhoods.CenterProducts();
+  axes.Compute(neighborhoods);
+  matches->target_index.resize(queries.size);
+  matches->fits.resize(queries.size);
+  for (std::size_t i = 0; i < queries.size; ++i) {
+    const bool accepted = Accepts(neighborhoods, axes, i);
+    matches->target_index[i] = accepted ? neighborhoods.nearest[i] : -1;
+    if (accepted) {
+      const Vec3 query(queries.x[i], queries.y[i], queries.z[i]);
+      matches->fits[i].anchor =
+          options_.anchor == FitAnchor::kCentroid
+              ? Vec3(query + neighborhoods.Mean(i))
+              : target().Point(static_cast<std::size_t>(neighborhoods.nearest[i]));
+      matches->fits[i].direction = shape_ == Shape::kLine ? axes.Largest(i) : axes.Smallest(i);
     }
-  });
+  }
 }
 
 }  // namespace icpscape

@@ -6,7 +6,6 @@
 #include <vector>
 
 #include "src/matching/matcher.h"
-#include "src/neighbors/neighbor_search.h"
 
 namespace icpscape {
 
@@ -45,19 +44,19 @@ class LocalFitMatcher final : public Matcher {
  public:
   enum class Shape { kLine, kPatch };
 
-  LocalFitMatcher(Shape shape, const PointCloud& source, const PointCloud& target,
+  LocalFitMatcher(Shape shape, SearchableCloud source, SearchableCloud target,
                   const LocalFitOptions& options = {});
 
   unsigned Provides() const override { return shape_ == Shape::kLine ? kTargetLine : kTargetPatch; }
-  void Match(const SE3d& T_target_source, int threads, Matches* matches) const override;
+  double area_patch() const override { return options_.triangle_leg_m * options_.triangle_leg_m; }
+  void MatchPart(const SE3d& T_target_source, std::size_t begin, std::size_t end,
+                 Matches* matches) const override;
 
  private:
-  bool Fit(const Eigen::Vector3f& query, const std::vector<Neighbor>& neighbors,
-           LocalFit* fit) const;
+  bool Accepts(const Neighborhoods& neighborhoods, const PrincipalAxes& axes, std::size_t i) const;
 
   Shape shape_;
   LocalFitOptions options_;
-  NeighborSearch search_;
 };
 
 }  // namespace icpscape

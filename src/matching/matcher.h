@@ -3,10 +3,11 @@
 #define ICPSCAPE_SRC_MATCHING_MATCHER_H_
 
 #include <cstdint>
+#include <utility>
 #include <vector>
 
 #include "residuals/correspondence.h"
-#include "src/cloud/point_cloud.h"
+#include "src/cloud/searchable_cloud.h"
 
 namespace icpscape {
 
@@ -22,8 +23,6 @@ struct Matches {
   std::vector<std::int32_t> target_index;
   /// Of matchers that fit: valid where target_index >= 0. Empty otherwise.
   std::vector<LocalFit> fits = {};
-  /// |(q_j - q_k) x (q_j - q_l)| of a patch's virtual triangle (m^2).
-  double area_patch = 0;
 
   std::size_t Count() const;
 };
@@ -33,24 +32,51 @@ struct Matches {
 class Matcher {
  public:
   /// The clouds must outlive the matcher.
-  Matcher(const PointCloud& source, const PointCloud& target) : source_(source), target_(target) {}
+  Matcher(SearchableCloud source, SearchableCloud target)
+      : source_(std::move(source)), target_(std::move(target)) {}
   virtual ~Matcher() = default;
   Matcher(const Matcher&) = delete;
   Matcher& operator=(const Matcher&) = delete;
 
-  const PointCloud& source() const { return source_; }
-  const PointCloud& target() const { return target_; }
+  const PointCloud& source() const { return source_.cloud(); }
+  const PointCloud& target() const { return target_.cloud(); }
 
   /// Union of Needs that the matches satisfy (normals come from the clouds).
   virtual unsigned Provides() const = 0;
 
+  /// |(q_j - q_k) x (q_j - q_l)| of a patch's virtual triangle (m^2), for kTargetPatch.
+  virtual double area_patch() const { return 0; }
+
   /// Matches every source point at the pose. The result does not depend on `threads`; safe from
   /// several threads at once.
-  virtual void Match(const SE3d& T_target_source, int threads, Matches* matches) const = 0;
+  void Match(const SE3d& T_target_source, int threads, Matches* matches) const;
+
+  // The same in parts, for those who go on with each part while it is in the cache.
+
+  /// The source points in the order in which they are matched: near ones together.
+  const std::vector<std::int32_t>& Order() const { return source_.search().Order(); }
+
+  /// Matches the source points Order()[begin] to Order()[end - 1]; the entries of `matches` are
+  /// theirs, in that order. Allocates only where there are more than ever before.
+  virtual void MatchPart(const SE3d& T_target_source, std::size_t begin, std::size_t end,
+                         Matches* matches) const = 0;
+
+  /// Makes room for all source points, without a match yet, and takes over those of one part.
+  void Clear(Matches* matches) const;
+  void Keep(const Matches& part, std::size_t begin, std::size_t end, Matches* matches) const;
+
+  /// Whether Reject has to see all parts before any is of use.
+  virtual bool Rejects() const { return false; }
+  virtual void Reject(const SE3d& /*T_target_source*/, int /*threads*/,
+                      Matches* /*matches*/) const {}
+
+ protected:
+  const SearchableCloud& searchable_source() const { return source_; }
+  const SearchableCloud& searchable_target() const { return target_; }
 
  private:
-  const PointCloud& source_;
-  const PointCloud& target_;
+  SearchableCloud source_;
+  SearchableCloud target_;
 };
 
 /// T p as the neighbour search takes it: moved in double, rounded to float once.

@@ -11,6 +11,7 @@
 #include "src/common/error.h"
 #include "src/common/parallel.h"
 #include "src/common/text.h"
+#include "src/neighbors/moved_points.h"
 
 namespace icpscape {
 namespace {
@@ -59,28 +60,36 @@ double LowerMedian(std::vector<double> values) {
 
 }  // namespace
 
-ReciprocalRejector::ReciprocalRejector(const PointCloud& source)
-    : source_(&source), search_(source.View()) {}
-
-void ReciprocalRejector::Reject(const PointCloud& target, const SE3d& T_target_source,
-                                double epsilon_m, int threads, Matches* matches) const {
+void RejectNotReciprocal(const SearchableCloud& source, const PointCloud& target,
+                         const SE3d& T_target_source, double epsilon_m, int threads,
+                         Matches* matches) {
   Require(epsilon_m >= 0 && std::isfinite(epsilon_m), "epsilon_m", epsilon_m,
           "a length, 0 for the strict form");
-  constexpr std::size_t kChunk = 2048;
   const SE3d T_source_target = T_target_source.Inverse();
-  const std::size_t size = matches->target_index.size();
-  ParallelFor((size + kChunk - 1) / kChunk, threads, [&](std::size_t chunk) {
-    const std::size_t end = std::min(size, (chunk + 1) * kChunk);
-    for (std::size_t i = chunk * kChunk; i < end; ++i) {
-      const std::int32_t j = matches->target_index[i];
-      if (j == kNone) {
-        continue;
+  const std::vector<std::int32_t>& order = source.search().Order();
+  ForEachPart(order.size(), threads, [&](std::size_t begin, std::size_t end) {
+    PointCloud matched;  // The matches of near points are near each other.
+    std::vector<std::size_t> whose;
+    for (std::size_t k = begin; k < end; ++k) {
+      const auto i = static_cast<std::size_t>(order[k]);
+      if (matches->target_index[i] != kNone) {
+        const auto j = static_cast<std::size_t>(matches->target_index[i]);
+        matched.x.push_back(target.x[j]);
+        matched.y.push_back(target.y[j]);
+        matched.z.push_back(target.z[j]);
+        whose.push_back(i);
       }
-      const Vec3 back = T_source_target * target.Point(static_cast<std::size_t>(j));
-      const Neighbor nearest =
-          search_.Nearest(back.cast<float>(), std::numeric_limits<float>::max());
-      const auto k = static_cast<std::size_t>(nearest.index);
-      if (k != i && !((source_->Point(i) - source_->Point(k)).norm() <= epsilon_m)) {
+    }
+    MovedPoints back;
+    back.Move(T_source_target, matched.View());
+    std::vector<std::int32_t> nearest(whose.size());
+    std::vector<float> squared_distance(whose.size());
+    source.search().Nearest(back.View(), std::numeric_limits<float>::max(), nearest.data(),
+                            squared_distance.data());
+    for (std::size_t m = 0; m < whose.size(); ++m) {
+      const std::size_t i = whose[m];
+      const auto k = static_cast<std::size_t>(nearest[m]);
+      if (k != i && !((source.cloud().Point(i) - source.cloud().Point(k)).norm() <= epsilon_m)) {
         matches->target_index[i] = kNone;
       }
     }

@@ -4,7 +4,6 @@
 
 #include "src/cloud/point_cloud.h"
 #include "src/matching/matcher.h"
-#include "src/neighbors/neighbor_search.h"
 
 namespace icpscape {
 
@@ -15,20 +14,11 @@ namespace icpscape {
 /// Reciprocal correspondences [paper sec. 2.5; Pajdla & Van Gool 1995]: p_i -> q is kept where
 /// q -> p_k leads back to it, k = i, or nearly, |p_i - p_k| <= epsilon. q -> p_k is the source
 /// point nearest to T^-1 q, which is rounded to float for the search; ties go to the lower index.
-class ReciprocalRejector {
- public:
-  /// The cloud must outlive the rejector.
-  explicit ReciprocalRejector(const PointCloud& source);
-
-  /// epsilon_m = 0 is the strict form; copies of a point are then one point. The result does not
-  /// depend on `threads`.
-  void Reject(const PointCloud& target, const SE3d& T_target_source, double epsilon_m, int threads,
-              Matches* matches) const;
-
- private:
-  const PointCloud* source_;
-  NeighborSearch search_;
-};
+/// epsilon_m = 0 is the strict form; copies of a point are then one point. The result does not
+/// depend on `threads`.
+void RejectNotReciprocal(const SearchableCloud& source, const PointCloud& target,
+                         const SE3d& T_target_source, double epsilon_m, int threads,
+                         Matches* matches);
 
 /// Rejects pairs further apart than max_distance_m.
 void RejectDistant(const PointCloud& source, const PointCloud& target, const SE3d& T_target_source,

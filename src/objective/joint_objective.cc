@@ -2,8 +2,6 @@
 #include "src/objective/joint_objective.h"
 
 #include <ceres/loss_function.h>
-#include <glog/logging.h>
-
 #include <algorithm>
 #include <utility>
 
@@ -18,6 +16,7 @@ JointObjective::JointObjective(std::vector<Term> terms) : terms_(std::move(terms
       throw UsageError("weight " + Number(term.weight) + " of " + term.objective->metric() +
                        ": expected a positive number.");
     }
+    objectives_.push_back(term.objective);
     // Ceres takes a mutable pointer but never changes the loss.
     scaled_losses_.push_back(std::make_unique<ceres::ScaledLoss>(
         const_cast<ceres::LossFunction*>(term.objective->loss()), term.weight,
@@ -37,27 +36,27 @@ std::string JointObjective::Name() const {
   return Join(names, " + ");
 }
 
-std::vector<Matches> JointObjective::Match(const SE3d& T_target_source, int threads) const {
-  std::vector<Matches> matches;
-  for (std::size_t k = 0; k < terms_.size(); ++k) {
-    std::size_t same = 0;
-    while (&terms_[same].objective->matcher() != &terms_[k].objective->matcher()) {
-      ++same;
-    }
-    matches.push_back(same < k ? matches[same]
-                               : terms_[k].objective->Match(T_target_source, threads));
-  }
-  return matches;
+MatchesByMatcher JointObjective::Match(const SE3d& T_target_source, int threads) const {
+  return MatchAll(objectives_, T_target_source, threads);
 }
 
-Evaluation JointObjective::Evaluate(const SE3d& T_target_source,
-                                    const std::vector<Matches>& matches, int threads) const {
-  CHECK_EQ(matches.size(), terms_.size());
+Evaluation JointObjective::WeightedSum(const std::vector<Evaluation>& evaluations) const {
   Evaluation sum;
   for (std::size_t k = 0; k < terms_.size(); ++k) {
-    sum.Add(terms_[k].objective->Evaluate(T_target_source, matches[k], threads), terms_[k].weight);
+    sum.Add(evaluations[k], terms_[k].weight);
   }
   return sum;
+}
+
+Evaluation JointObjective::Evaluate(const SE3d& T_target_source, const MatchesByMatcher& matches,
+                                    int threads, Derivatives derivatives) const {
+  return WeightedSum(EvaluateAll(objectives_, T_target_source, matches, derivatives, threads));
+}
+
+Evaluation JointObjective::Evaluate(const SE3d& T_target_source, int threads,
+                                    MatchesByMatcher* keep) const {
+  return WeightedSum(
+      EvaluateAll(objectives_, T_target_source, Derivatives::kHessian, threads, keep));
 }
 
 bool JointObjective::HasUpwardLoss() const {
@@ -65,10 +64,11 @@ bool JointObjective::HasUpwardLoss() const {
                      [](const Term& term) { return term.objective->HasUpwardLoss(); });
 }
 
-void JointObjective::AddResidualBlocks(const std::vector<Matches>& matches, double* x,
+void JointObjective::AddResidualBlocks(const MatchesByMatcher& matches, double* x,
                                        ceres::Problem* problem) const {
   for (std::size_t k = 0; k < terms_.size(); ++k) {
-    terms_[k].objective->AddResidualBlocks(matches[k], scaled_losses_[k].get(), x, problem);
+    terms_[k].objective->AddResidualBlocks(matches.at(&terms_[k].objective->matcher()),
+                                           scaled_losses_[k].get(), x, problem);
   }
 }
 

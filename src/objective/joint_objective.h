@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "src/objective/objective.h"
+#include "src/objective/pass.h"
 
 namespace icpscape {
 
@@ -31,24 +31,26 @@ class JointObjective {
   /// "edge_to_line + planar_to_plane".
   std::string Name() const;
 
-  /// One entry per term; terms that share a matcher share its work.
-  std::vector<Matches> Match(const SE3d& T_target_source, int threads) const;
+  /// Terms that share a matcher share its work.
+  MatchesByMatcher Match(const SE3d& T_target_source, int threads) const;
 
-  Evaluation Evaluate(const SE3d& T_target_source, const std::vector<Matches>& matches,
-                      int threads) const;
-  Evaluation Evaluate(const SE3d& T_target_source, int threads) const {
-    return Evaluate(T_target_source, Match(T_target_source, threads), threads);
-  }
+  Evaluation Evaluate(const SE3d& T_target_source, const MatchesByMatcher& matches, int threads,
+                      Derivatives derivatives = Derivatives::kHessian) const;
+  /// Re-associated; the matches go to `keep` if it is given.
+  Evaluation Evaluate(const SE3d& T_target_source, int threads,
+                      MatchesByMatcher* keep = nullptr) const;
 
   /// Whether one of the losses has rho'' > 0 somewhere.
   bool HasUpwardLoss() const;
 
   /// As Objective::AddResidualBlocks; the losses belong to this object.
-  void AddResidualBlocks(const std::vector<Matches>& matches, double* x,
-                         ceres::Problem* problem) const;
+  void AddResidualBlocks(const MatchesByMatcher& matches, double* x, ceres::Problem* problem) const;
 
  private:
+  Evaluation WeightedSum(const std::vector<Evaluation>& evaluations) const;
+
   std::vector<Term> terms_;
+  std::vector<const Objective*> objectives_;                         // Those of the terms.
   std::vector<std::unique_ptr<ceres::LossFunction>> scaled_losses_;  // One per term.
 };
 

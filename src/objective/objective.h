@@ -5,39 +5,14 @@
 #include <memory>
 #include <string>
 
-#include "residuals/normal_equations.h"
-#include "src/cloud/point_cloud.h"
 #include "src/matching/matcher.h"
+#include "src/objective/metric_functions.h"
 
 namespace ceres {
-class LossFunction;
 class Problem;
 }  // namespace ceres
 
 namespace icpscape {
-
-/// An objective's value and derivatives at one pose.
-struct Evaluation {
-  /// cost = 1/2 sum rho(|r|^2), gradient, Gauss-Newton Hessian and n: what the solver minimises.
-  NormalEquations sums;
-  /// sum |r|^2, whatever the loss (m^2).
-  double sum_squared = 0;
-  /// The paper's eps(T), as printed; it knows no loss.
-  double epsilon = 0;
-  /// d epsilon / d xi, T <- T Exp([omega; v]).
-  Vec6 epsilon_gradient = Vec6::Zero();
-
-  /// Adds weight times the other; n counts whole.
-  void Add(const Evaluation& other, double weight);
-
-  long n() const { return sums.num_correspondences; }
-  /// RMSE(eps) = sqrt(eps / n) [paper sec. 4]; NaN where n = 0.
-  double Rmse() const;
-  /// sqrt(sum |r|^2 / n); NaN where n = 0.
-  double RmsResidual() const;
-  /// d Rmse / du for a motion with body twist xi = dT/du.
-  double RmseSlope(const Vec6& body_twist) const;
-};
 
 /// The objective function of ICP for one metric and one pair of clouds: the one function behind the
 /// solver and every plot.
@@ -55,6 +30,8 @@ class Objective {
 
   const std::string& metric() const { return metric_; }
   const Matcher& matcher() const { return *matcher_; }
+  /// What the metric needs of a pair.
+  unsigned needs() const { return functions_->needs; }
 
   Matches Match(const SE3d& T_target_source, int threads) const;
 
@@ -62,8 +39,14 @@ class Objective {
   /// metric needs one, are left out.
   Evaluation Evaluate(const SE3d& T_target_source, const Matches& matches, int threads) const;
 
-  /// Re-associated: matched at this pose, then summed.
+  /// Re-associated: matched at this pose and summed. See pass.h for several objectives at once.
   Evaluation Evaluate(const SE3d& T_target_source, int threads) const;
+
+  /// Adds the sums over a block of pairs.
+  void Add(const PairBlock& block, const SE3d& T_target_source, Derivatives derivatives,
+           Evaluation* sums) const {
+    functions_->evaluate(block, T_target_source, loss_.get(), derivatives, sums);
+  }
 
   /// Adds one CeresCost per pair to the problem, over the seven parameters x, under the loss (null
   /// for none), which the problem must not own. The way round SquareRootCost where a loss has
@@ -78,21 +61,11 @@ class Objective {
   const ceres::LossFunction* loss() const { return loss_.get(); }
 
  private:
-  struct MetricFunctions;
   std::string metric_;
   const Matcher* matcher_;
   std::shared_ptr<const ceres::LossFunction> loss_;
   const MetricFunctions* functions_;
 };
-
-/// Throws UsageError unless the metric is registered.
-void CheckMetricName(const std::string& metric);
-
-/// Union of Needs of a registered metric.
-unsigned MetricNeeds(const std::string& metric);
-
-/// What the paper sums for a registered metric.
-Epsilon MetricEpsilon(const std::string& metric);
 
 }  // namespace icpscape
 

@@ -6,10 +6,10 @@
 namespace icpscape {
 
 bool NeedsFeatures(const std::string& metric) {
-  return (MetricNeeds(metric) & (kTargetLine | kTargetPatch)) != 0;
+  return (MetricFunctionsOf(metric).needs & (kTargetLine | kTargetPatch)) != 0;
 }
 
-ObjectiveSet::ObjectiveSet(const PointCloud& source, const PointCloud& target,
+ObjectiveSet::ObjectiveSet(const PointCloud& source, const SearchableCloud& target,
                            const Features& features, const std::vector<std::string>& metrics,
                            const ObjectiveSetOptions& options) {
   for (const std::string& metric : metrics) {
@@ -22,9 +22,9 @@ ObjectiveSet::ObjectiveSet(const PointCloud& source, const PointCloud& target,
 }
 
 const Matcher& ObjectiveSet::MatcherFor(const std::string& metric, const PointCloud& source,
-                                        const PointCloud& target, const Features& features,
+                                        const SearchableCloud& target, const Features& features,
                                         const ObjectiveSetOptions& options) {
-  const unsigned needs = MetricNeeds(metric);
+  const unsigned needs = MetricFunctionsOf(metric).needs;
   if ((needs & kTargetLine) != 0) {
     if (!lines_) {
       edges_ = std::make_unique<PointCloud>(source.Select(features.edge));

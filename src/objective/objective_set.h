@@ -32,14 +32,14 @@ class ObjectiveSet {
   /// The clouds must outlive the set, and have normals where a metric needs them; `features` are
   /// the source's, and may be empty where no metric needs them. Throws UsageError for unknown
   /// metrics, ComputationError where a metric has no source point.
-  ObjectiveSet(const PointCloud& source, const PointCloud& target, const Features& features,
+  ObjectiveSet(const PointCloud& source, const SearchableCloud& target, const Features& features,
                const std::vector<std::string>& metrics, const ObjectiveSetOptions& options);
 
   const std::vector<Objective>& objectives() const { return objectives_; }
 
  private:
   const Matcher& MatcherFor(const std::string& metric, const PointCloud& source,
-                            const PointCloud& target, const Features& features,
+                            const SearchableCloud& target, const Features& features,
                             const ObjectiveSetOptions& options);
 
   // On the heap: the matchers refer to them, and a set may be moved.

@@ -8,6 +8,7 @@
 #include <Eigen/Eigenvalues>
 
 #include "src/io/kitti.h"
+#include "src/neighbors/neighbor_search.h"
 #include "tests/support/real_scans.h"
 #include "tests/support/scenes.h"
 

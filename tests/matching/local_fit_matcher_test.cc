@@ -8,6 +8,7 @@
 
 #include "src/common/error.h"
 #include "src/io/kitti.h"
+#include "src/neighbors/neighbor_search.h"
 #include "tests/support/real_scans.h"
 #include "tests/support/scenes.h"
 
@@ -65,7 +66,7 @@ TEST(LocalFit, RatiosAndScalesByHand) {
   const Matches patch = MatchOne(Shape::kPatch, {3, 0, 0}, cross);
   ASSERT_EQ(patch.Count(), 1U);
   EXPECT_NEAR(std::abs(patch.fits[0].direction.x()), 1, 1e-9);
-  EXPECT_EQ(patch.area_patch, 0.25);
+  EXPECT_EQ(LocalFitMatcher(Shape::kPatch, cross, cross).area_patch(), 0.25);
 }
 
 // Four corners of a square, one lifted by h, and the middle: the smallest eigenvalue depends on

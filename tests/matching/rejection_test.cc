@@ -53,23 +53,23 @@ SE3d SomeMotion() {
 TEST(ReciprocalRejector, KeepsPairsThatLeadBack) {
   // 0 and 0.9 both go to the target's 1; back from 1 the way leads to 0.9. 5 -> 5.2 -> 5.
   const PointCloud source = Row({0, 0.9, 5}), target = Row({1, 5.2});
-  const ReciprocalRejector rejector(source);
+  const SearchableCloud searchable(source);
   Matches matches{{0, 0, 1}};
-  rejector.Reject(target, SE3d(), 0, 1, &matches);
+  RejectNotReciprocal(searchable, target, SE3d(), 0, 1, &matches);
   EXPECT_THAT(matches.target_index, ElementsAre(-1, 0, 1));
   matches.target_index = {0, 0, -1};
-  rejector.Reject(target, SE3d(), 0.899, 1, &matches);
+  RejectNotReciprocal(searchable, target, SE3d(), 0.899, 1, &matches);
   EXPECT_THAT(matches.target_index, ElementsAre(-1, 0, -1));
   matches.target_index = {0, 0, 1};
-  rejector.Reject(target, SE3d(), 0.91, 1, &matches);
+  RejectNotReciprocal(searchable, target, SE3d(), 0.91, 1, &matches);
   EXPECT_THAT(matches.target_index, ElementsAre(0, 0, 1));
-  EXPECT_THROW(rejector.Reject(target, SE3d(), -1, 1, &matches), UsageError);
+  EXPECT_THROW(RejectNotReciprocal(searchable, target, SE3d(), -1, 1, &matches), UsageError);
 }
 
 TEST(ReciprocalRejector, TakesCopiesOfAPointForOne) {
   const PointCloud source = Row({1, 1, 3}), target = Row({1.1});
   Matches matches{{0, 0, 0}};
-  ReciprocalRejector(source).Reject(target, SE3d(), 0, 1, &matches);
+  RejectNotReciprocal(source, target, SE3d(), 0, 1, &matches);
   EXPECT_THAT(matches.target_index, ElementsAre(0, 0, -1));
 }
 
@@ -79,7 +79,7 @@ TEST(ReciprocalRejector, WorksAtThePose) {
   const PointCloud target = source.Transformed(SomeMotion());
   Matches matches;
   ClosestPointMatcher(source, target).Match(SomeMotion(), 1, &matches);
-  ReciprocalRejector(source).Reject(target, SomeMotion(), 0, 1, &matches);
+  RejectNotReciprocal(source, target, SomeMotion(), 0, 1, &matches);
   for (std::size_t i = 0; i < source.size(); ++i) {
     EXPECT_EQ(matches.target_index[i], static_cast<std::int32_t>(i));
   }
@@ -90,11 +90,11 @@ TEST(ReciprocalRejector, EqualsBruteForceForAnyNumberOfThreads) {
   const SE3d T = SomeMotion();
   Matches all;
   ClosestPointMatcher(source, target).Match(T, 1, &all);
-  const ReciprocalRejector rejector(source);
+  const SearchableCloud searchable(source);
   for (const double epsilon : {0., 0.3}) {
     Matches one = all, three = all;
-    rejector.Reject(target, T, epsilon, 1, &one);
-    rejector.Reject(target, T, epsilon, 3, &three);
+    RejectNotReciprocal(searchable, target, T, epsilon, 1, &one);
+    RejectNotReciprocal(searchable, target, T, epsilon, 3, &three);
     EXPECT_EQ(one.target_index, three.target_index);
     EXPECT_LT(one.Count(), all.Count());
     for (std::size_t i = 0; i < source.size(); i += 10) {
@@ -207,7 +207,7 @@ TEST(Rejection, LeavesNoMatchesAsTheyAre) {
   RejectTrimmed(source, target, SE3d(), 0.5, &matches);
   RejectRegions(source, target, SE3d(), {}, &matches);
   RejectDistant(source, target, SE3d(), 1, &matches);
-  ReciprocalRejector(source).Reject(target, SE3d(), 0, 1, &matches);
+  RejectNotReciprocal(source, target, SE3d(), 0, 1, &matches);
   EXPECT_EQ(matches.target_index, none.target_index);
 }
 
@@ -218,9 +218,9 @@ TEST(ReciprocalRejector, KeepsOneSourcePointPerTargetPointOnARealPair) {
   Matches all;
   ClosestPointMatcher(source, target).Match(T, 2, &all);
   Matches strict = all, relaxed = all;
-  const ReciprocalRejector rejector(source);
-  rejector.Reject(target, T, 0, 2, &strict);
-  rejector.Reject(target, T, 0.2, 2, &relaxed);
+  const SearchableCloud searchable(source);
+  RejectNotReciprocal(searchable, target, T, 0, 2, &strict);
+  RejectNotReciprocal(searchable, target, T, 0.2, 2, &relaxed);
   std::vector<char> used(target.size(), 0);
   for (std::size_t i = 0; i < source.size(); ++i) {
     if (strict.target_index[i] >= 0) {

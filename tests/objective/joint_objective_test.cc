@@ -40,7 +40,7 @@ TEST(JointObjective, IsTheWeightedSumAndWhatCeresSees) {
   const JointObjective joint({{&o[0], 2}, {&o[1], 0.5}, {&o[2], 1}});
   EXPECT_EQ(joint.Name(), "edge_to_line + planar_to_plane + point_to_plane");
   const SE3d T(Mat3::Identity(), Vec3(0.05, 0.02, 0));
-  const std::vector<Matches> matches = joint.Match(T, 1);
+  const MatchesByMatcher matches = joint.Match(T, 1);
   const Evaluation sum = joint.Evaluate(T, matches, 1);
   double cost = 0;
   Vec6 gradient = Vec6::Zero();

@@ -94,7 +94,7 @@ TEST_P(EqualsCeres, OnFrozenMatches) {
         if (!matches.fits.empty()) {
           c.a_line = c.q_patch = matches.fits[p].anchor;
           c.d_line = c.n_patch = matches.fits[p].direction;
-          c.area_patch = matches.area_patch;
+          c.area_patch = matcher->area_patch();
         }
         c.p_source = Room().source.Point(p);
         c.q_target = Room().target.Point(q);

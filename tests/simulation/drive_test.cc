@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "src/neighbors/neighbor_search.h"
 #include "src/simulation/simulator.h"
 
 namespace icpscape {

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "src/simulation/scenes.h"
+#include "src/neighbors/neighbor_search.h"
 
 #include <gmock/gmock.h>
 

@@ -1,0 +1,25 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "src/objective/evaluation.h"
+
+#include <cmath>
+
+namespace icpscape {
+
+void Evaluation::Add(const Evaluation& other, double weight) {
+  NormalEquations scaled = other.sums;
+  scaled.Scale(weight);
+  sums += scaled;
+  sum_squared += weight * other.sum_squared;
+  epsilon += weight * other.epsilon;
+  epsilon_gradient += weight * other.epsilon_gradient;
+}
+
+double Evaluation::Rmse() const { return std::sqrt(epsilon / static_cast<double>(n())); }
+
+double Evaluation::RmsResidual() const { return std::sqrt(sum_squared / static_cast<double>(n())); }
+
+double Evaluation::RmseSlope(const Vec6& body_twist) const {
+  return epsilon_gradient.dot(body_twist) / (2 * static_cast<double>(n()) * Rmse());
+}
+
+}  // namespace icpscape
