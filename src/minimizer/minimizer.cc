@@ -11,6 +11,7 @@
 #include <chrono>
 #include <functional>
 #include <limits>
+#include <tuple>
 #include <utility>
 
 #include "residuals/adapters/ceres.h"
@@ -56,13 +57,14 @@ class Loop {
 
   const MinimizerOptions& options() const { return options_; }
 
-  Evaluation Reassociated(const SE3d& T, std::vector<Matches>* matches) {
-    *matches = objective_.Match(T, options_.threads);
+  // Where `keep` is given, the matches go there.
+  Evaluation Reassociated(const SE3d& T, MatchesByMatcher* keep = nullptr) {
     ++summary_.matching_passes;
-    return Frozen(T, *matches);
+    return objective_.Evaluate(T, options_.threads, keep);
   }
-  Evaluation Frozen(const SE3d& T, const std::vector<Matches>& matches) const {
-    return objective_.Evaluate(T, matches, options_.threads);
+  // The cost over frozen matches, and nothing else.
+  NormalEquations FrozenCost(const SE3d& T, const MatchesByMatcher& matches) const {
+    return objective_.Evaluate(T, matches, options_.threads, Derivatives::kNone).sums;
   }
 
   void Record(const SE3d& T, const Evaluation& evaluation) {
@@ -73,23 +75,31 @@ class Loop {
     iterate.n = evaluation.n();
     iterate.gradient_norm = evaluation.sums.gradient.norm();
     if (!summary_.iterates.empty()) {
-      const SE3d step = summary_.iterates.back().T_target_source.Inverse() * T;
-      iterate.step_m = step.t().norm();
-      iterate.step_rad = step.LogRotation().norm();
+      std::tie(iterate.step_m, iterate.step_rad) =
+          Length(summary_.iterates.back().T_target_source, T);
     }
     iterate.time_s = std::chrono::duration<double>(Clock::now() - start_).count();
     summary_.iterates.push_back(iterate);
   }
 
-  // Whether the last recorded step was short enough to end the loop.
-  bool ShortStep() const {
-    return summary_.iterates.size() > 1 && summary_.iterates.back().step_m < options_.min_step_m &&
-           summary_.iterates.back().step_rad < options_.min_step_rad;
+  // Whether a step is short enough to end the loop.
+  bool IsShort(double step_m, double step_rad) const {
+    return step_m < options_.min_step_m && step_rad < options_.min_step_rad;
+  }
+  // Of the step from the last recorded pose to this one.
+  bool IsShortStepTo(const SE3d& T) const {
+    const auto [step_m, step_rad] = Length(summary_.iterates.back().T_target_source, T);
+    return IsShort(step_m, step_rad);
+  }
+  bool LastStepWasShort() const {
+    return summary_.iterates.size() > 1 &&
+           IsShort(summary_.iterates.back().step_m, summary_.iterates.back().step_rad);
   }
   // A step that is short because longer ones were rejected before it is no convergence.
   MinimizerSummary EndShortStep(int rejected) {
-    return rejected == 0 ? End(Termination::kConverged, "The last step was shorter than the limit.")
-                         : EndNoDescent();
+    return rejected == 0
+               ? End(Termination::kConverged, "The step from here is shorter than the limit.")
+               : EndNoDescent();
   }
 
   MinimizerSummary End(Termination termination, std::string message) {
@@ -120,6 +130,13 @@ class Loop {
 
  private:
   using Clock = std::chrono::steady_clock;
+
+  // In metres and radians.
+  static std::pair<double, double> Length(const SE3d& from, const SE3d& to) {
+    const SE3d step = from.Inverse() * to;
+    return {step.t().norm(), step.LogRotation().norm()};
+  }
+
   const JointObjective& objective_;
   const MinimizerOptions& options_;
   MinimizerSummary summary_;
@@ -149,8 +166,8 @@ struct StepResult {
 };
 
 // One Ceres step on frozen matches.
-StepResult Step(const JointObjective& objective, const Loop& loop,
-                const std::vector<Matches>& matches, const Evaluation& at_start, Parameters* x) {
+StepResult Step(const JointObjective& objective, const Loop& loop, const MatchesByMatcher& matches,
+                const Evaluation& at_start, Parameters* x) {
   ceres::Problem problem(UnownedLoss());
   ceres::Solver::Options options = SolverOptions();
   problem.AddParameterBlock(x->data(), 7, new SE3Manifold);
@@ -160,9 +177,11 @@ StepResult Step(const JointObjective& objective, const Loop& loop,
   } else {
     bool first = true;
     problem.AddResidualBlock(new SquareRootCost([&, first](const SE3d& T) mutable {
-                               // Ceres begins with the pose that was evaluated a moment ago.
+                               // Ceres begins with the pose that was evaluated a moment ago. Of
+                               // where it goes from there it needs the cost, to accept the step;
+                               // derivatives there are nobody's, because the pairs change next.
                                return std::exchange(first, false) ? at_start.sums
-                                                                  : loop.Frozen(T, matches).sums;
+                                                                  : loop.FrozenCost(T, matches);
                              }),
                              nullptr, x->data());
   }
@@ -185,10 +204,9 @@ StepResult Step(const JointObjective& objective, const Loop& loop,
 }
 
 MinimizerSummary MinimizeEveryStep(const JointObjective& objective, Parameters x, Loop loop) {
-  StepResult step;
+  MatchesByMatcher matches;
   for (int iteration = 0;; ++iteration) {
     const SE3d T = SE3d::FromParameters(x.data());
-    std::vector<Matches> matches;
     const Evaluation evaluation = loop.Reassociated(T, &matches);
     if (evaluation.n() == 0) {
       return loop.EndNoCorrespondences();
@@ -200,16 +218,17 @@ MinimizerSummary MinimizeEveryStep(const JointObjective& objective, Parameters x
     if (Flat(evaluation)) {
       return loop.EndFlat();
     }
-    if (loop.ShortStep()) {
-      return loop.EndShortStep(step.rejected);
-    }
     if (iteration == loop.options().max_iterations) {
       return loop.EndMaxIterations();
     }
-    step = Step(objective, loop, matches, evaluation, &x);
+    const StepResult step = Step(objective, loop, matches, evaluation, &x);
     if (!step.accepted) {
       return step.failure.empty() ? loop.EndNoDescent()
                                   : loop.End(Termination::kFailure, step.failure);
+    }
+    // A short step is not taken: it would cost a matching pass to know the objective there.
+    if (loop.IsShortStepTo(SE3d::FromParameters(x.data()))) {
+      return loop.EndShortStep(step.rejected);
     }
   }
 }
@@ -219,10 +238,7 @@ MinimizerSummary MinimizeEveryEvaluation(Parameters x, Loop loop) {
     SE3d T;
     Evaluation evaluation;
   } last;
-  const auto evaluate = [&](const SE3d& T) {
-    std::vector<Matches> matches;
-    last = {T, loop.Reassociated(T, &matches)};
-  };
+  const auto evaluate = [&](const SE3d& T) { last = {T, loop.Reassociated(T)}; };
   evaluate(SE3d::FromParameters(x.data()));
   if (last.evaluation.n() == 0) {
     return loop.EndNoCorrespondences();
@@ -255,7 +271,7 @@ MinimizerSummary MinimizeEveryEvaluation(Parameters x, Loop loop) {
     // steps these are the pose evaluated last.
     if (iteration.iteration == 0 || iteration.step_is_successful) {
       loop.Record(last.T, last.evaluation);
-      if (loop.ShortStep()) {
+      if (loop.LastStepWasShort()) {
         return ceres::SOLVER_TERMINATE_SUCCESSFULLY;
       }
       rejected = 0;
@@ -272,7 +288,7 @@ MinimizerSummary MinimizeEveryEvaluation(Parameters x, Loop loop) {
   if (iterates->empty()) {
     return loop.End(Termination::kFailure, summary.message);
   }
-  const bool short_step = loop.ShortStep();
+  const bool short_step = loop.LastStepWasShort();
   // Ceres returns the pose of least cost: what came after it was an excursion.
   const auto best =
       std::min_element(iterates->begin(), iterates->end(),

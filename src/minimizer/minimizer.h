@@ -23,8 +23,8 @@ enum class Reassociation {
 struct MinimizerOptions {
   Reassociation reassociation = Reassociation::kEveryStep;
   int max_iterations = 50;
-  /// Converged when a step is shorter than both. A tenth of a millimetre is far below what
-  /// re-association leaves of the objective's smoothness.
+  /// Converged where the next step would be shorter than both. A tenth of a millimetre is far below
+  /// what re-association leaves of the objective's smoothness.
   double min_step_m = 1e-4;
   double min_step_rad = 1e-5;
   int threads = 1;
@@ -43,7 +43,7 @@ struct Iterate {
 };
 
 enum class Termination {
-  kConverged,          ///< The last step was short enough.
+  kConverged,          ///< The next step would be short enough.
   kNoDescent,          ///< No step along the model lowered the cost, or only a vanishing one.
   kMaxIterations,      ///< The limit on iterations was reached.
   kNoCorrespondences,  ///< A pose had no usable pair.
