@@ -7,7 +7,6 @@ find_package(gflags REQUIRED)
 find_package(TBB REQUIRED)
 find_package(embree 3 REQUIRED)
 find_package(OpenSSL REQUIRED COMPONENTS Crypto)
-find_package(nanoflann REQUIRED)
 find_package(nlohmann_json REQUIRED)
 find_package(PCL 1.12 REQUIRED COMPONENTS common io)
 

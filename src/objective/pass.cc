@@ -138,11 +138,10 @@ MatchesByMatcher MatchAll(const std::vector<const Objective*>& objectives,
 std::vector<Evaluation> EvaluateAll(const std::vector<const Objective*>& objectives,
                                     const SE3d& T_target_source, Derivatives derivatives,
                                     int threads, MatchesByMatcher* keep) {
-  return ForEachGroup(objectives, T_target_source, derivatives,
-                      [&](const GroupPass& pass, const Matcher* matcher) {
-                        return pass.Reassociated(threads,
-                                                 keep != nullptr ? &(*keep)[matcher] : nullptr);
-                      });
+  return ForEachGroup(
+      objectives, T_target_source, derivatives, [&](const GroupPass& pass, const Matcher* matcher) {
+        return pass.Reassociated(threads, keep != nullptr ? &(*keep)[matcher] : nullptr);
+      });
 }
 
 std::vector<Evaluation> EvaluateAll(const std::vector<const Objective*>& objectives,

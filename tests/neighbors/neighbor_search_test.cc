@@ -5,25 +5,37 @@
 
 #include <algorithm>
 #include <limits>
+#include <nanoflann.hpp>
+#include <random>
 
 #include "src/io/kitti.h"
 #include "tests/support/real_scans.h"
 #include "tests/support/scenes.h"
+#include "tests/support/simd_levels.h"
 
 namespace icpscape {
 namespace {
 
+constexpr float kNoLimit = std::numeric_limits<float>::max();
+constexpr float kInfinity = std::numeric_limits<float>::infinity();
+constexpr float kNaN = std::numeric_limits<float>::quiet_NaN();
+
+bool Before(const Neighbor& a, const Neighbor& b) {
+  return a.squared_distance < b.squared_distance ||
+         (a.squared_distance == b.squared_distance && a.index < b.index);
+}
+
 // The definition, by brute force: distances in float in this order, ties to the lower index.
 std::vector<Neighbor> AllSorted(const PointCloud& cloud, const Eigen::Vector3f& q) {
-  std::vector<Neighbor> all(cloud.size());
+  std::vector<Neighbor> all;
   for (std::size_t i = 0; i < cloud.size(); ++i) {
     const float dx = q.x() - cloud.x[i], dy = q.y() - cloud.y[i], dz = q.z() - cloud.z[i];
-    all[i] = {static_cast<int>(i), (dx * dx + dy * dy) + dz * dz};
+    const float squared_distance = (dx * dx + dy * dy) + dz * dz;
+    if (squared_distance <= kNoLimit) {
+      all.push_back({static_cast<int>(i), squared_distance});
+    }
   }
-  std::sort(all.begin(), all.end(), [](const Neighbor& a, const Neighbor& b) {
-    return a.squared_distance < b.squared_distance ||
-           (a.squared_distance == b.squared_distance && a.index < b.index);
-  });
+  std::sort(all.begin(), all.end(), Before);
   return all;
 }
 
@@ -35,18 +47,35 @@ void ExpectSame(const std::vector<Neighbor>& found, const std::vector<Neighbor>&
   }
 }
 
-void ExpectEqualsBruteForce(const PointCloud& cloud, const std::vector<Eigen::Vector3f>& queries) {
+std::vector<Neighbor> First(const std::vector<Neighbor>& all, std::size_t k) {
+  return {all.begin(), all.begin() + static_cast<std::ptrdiff_t>(std::min(k, all.size()))};
+}
+
+Eigen::Vector3f PointOf(const PointCloud& cloud, std::size_t i) {
+  return {cloud.x[i], cloud.y[i], cloud.z[i]};
+}
+
+// Single queries, batches and moments, against the definition.
+void ExpectEqualsBruteForce(const PointCloud& cloud, const PointCloud& queries) {
   const NeighborSearch search(cloud.View());
-  std::vector<Neighbor> found;
-  for (const Eigen::Vector3f& q : queries) {
+  const std::size_t size = queries.size();
+  std::vector<std::int32_t> index(size);
+  std::vector<float> squared_distance(size);
+  search.Nearest(queries.View(), kNoLimit, index.data(), squared_distance.data());
+  std::vector<Neighbor> five, found;
+  search.KNearest(queries.View(), 5, &five);
+  for (std::size_t i = 0; i < size; ++i) {
+    const Eigen::Vector3f q = PointOf(queries, i);
     const std::vector<Neighbor> all = AllSorted(cloud, q);
-    const Neighbor nearest = search.Nearest(q, std::numeric_limits<float>::max());
-    EXPECT_EQ(nearest.index, all[0].index);
-    EXPECT_EQ(nearest.squared_distance, all[0].squared_distance);
-    for (const std::size_t k : {1UL, 5UL, 20UL}) {
+    ASSERT_EQ(index[i], all.empty() ? -1 : all[0].index);
+    EXPECT_EQ(search.Nearest(q, kNoLimit).index, index[i]);
+    for (const std::size_t k : {1UL, 5UL, 20UL, 40UL}) {
       search.KNearest(q, static_cast<int>(k), &found);
-      const auto end = all.begin() + static_cast<std::ptrdiff_t>(std::min(k, all.size()));
-      ExpectSame(found, {all.begin(), end});
+      ExpectSame(found, First(all, k));
+    }
+    const std::vector<Neighbor> first = First(all, 5);
+    for (std::size_t n = 0; n < 5; ++n) {
+      EXPECT_EQ(five[5 * i + n].index, n < first.size() ? first[n].index : -1);
     }
     const float radius = 0.75F;
     search.WithinRadius(q, radius, &found);
@@ -54,6 +83,10 @@ void ExpectEqualsBruteForce(const PointCloud& cloud, const std::vector<Eigen::Ve
       return n.squared_distance > radius * radius;
     });
     ExpectSame(found, {all.begin(), end});
+    if (all.empty()) {
+      continue;
+    }
+    EXPECT_EQ(squared_distance[i], all[0].squared_distance);
     // A gate exactly at the nearest distance lets it through; just below, nothing.
     EXPECT_EQ(search.Nearest(q, all[0].squared_distance).index, all[0].index);
     if (all[0].squared_distance > 0) {
@@ -62,52 +95,218 @@ void ExpectEqualsBruteForce(const PointCloud& cloud, const std::vector<Eigen::Ve
   }
 }
 
-TEST(NeighborSearch, TiesAndDuplicatesGoToTheLowerIndex) {
-  const PointCloud cloud = testing_support::CloudWithTies(3000, 1);
-  std::vector<Eigen::Vector3f> queries;
-  for (std::size_t i = 0; i < 200; ++i) {
-    queries.emplace_back(cloud.x[i], cloud.y[i], cloud.z[i]);
-    queries.emplace_back(cloud.x[i] + 0.25F, cloud.y[i] - 0.25F, cloud.z[i]);
+// Moments against sums over the neighbours that the definition names.
+void ExpectMoments(const PointCloud& cloud, const PointCloud& queries, const Neighborhoods& found,
+                   const std::function<std::vector<Neighbor>(std::vector<Neighbor>)>& select) {
+  for (std::size_t i = 0; i < queries.size(); ++i) {
+    const Eigen::Vector3f q = PointOf(queries, i);
+    const std::vector<Neighbor> expected = select(AllSorted(cloud, q));
+    ASSERT_EQ(found.count[i], static_cast<int>(expected.size()));
+    if (expected.empty()) {
+      EXPECT_EQ(found.nearest[i], -1);
+      EXPECT_EQ(found.farthest_squared_distance[i], 0);
+      continue;
+    }
+    EXPECT_EQ(found.nearest[i], expected.front().index);
+    EXPECT_EQ(found.farthest_squared_distance[i], expected.back().squared_distance);
+    const double radius = std::sqrt(expected.back().squared_distance);
+    Vec3 sum = Vec3::Zero();
+    Mat3 products = Mat3::Zero();
+    for (const Neighbor& n : expected) {
+      const Vec3 d = (PointOf(cloud, static_cast<std::size_t>(n.index)) - q).cast<double>();
+      sum += d;
+      products += d * d.transpose();
+    }
+    const double n = found.count[i];
+    EXPECT_LE((Vec3(found.x[i], found.y[i], found.z[i]) - sum).norm(), 2e-7 * n * radius);
+    EXPECT_LE((found.Products(i) - products).norm(), 4e-7 * n * radius * radius);
   }
-  ExpectEqualsBruteForce(cloud, queries);
 }
 
-TEST(NeighborSearch, DegenerateClouds) {
-  PointCloud equal, line, one;
+void ExpectMomentsEqualBruteForce(const PointCloud& cloud, const PointCloud& queries) {
+  const NeighborSearch search(cloud.View());
+  Neighborhoods found;
+  for (const int k : {1, 5, 20, 40}) {
+    search.KNearest(queries.View(), k, &found);
+    ExpectMoments(cloud, queries, found, [&](const std::vector<Neighbor>& all) {
+      return First(all, static_cast<std::size_t>(k));
+    });
+  }
+  const float radius = 0.75F;
+  search.WithinRadius(queries.View(), radius, &found);
+  ExpectMoments(cloud, queries, found, [&](std::vector<Neighbor> all) {
+    all.erase(std::find_if(all.begin(), all.end(),
+                           [&](const Neighbor& n) { return n.squared_distance > radius * radius; }),
+              all.end());
+    return all;
+  });
+}
+
+PointCloud Cloud(const std::vector<Eigen::Vector3f>& points) {
+  PointCloud cloud;
+  for (const Eigen::Vector3f& p : points) {
+    cloud.x.push_back(p.x());
+    cloud.y.push_back(p.y());
+    cloud.z.push_back(p.z());
+  }
+  return cloud;
+}
+
+PointCloud Uniform(int points, unsigned seed) {
+  std::mt19937 engine(seed);
+  std::uniform_real_distribution<double> unit(-5, 5);
+  PointCloud cloud;
+  for (int i = 0; i < points; ++i) {
+    testing_support::AddPoint({unit(engine), unit(engine), unit(engine)}, &cloud);
+  }
+  return cloud;
+}
+
+class NeighborSearchAt : public testing_support::EverySimdLevel {};
+ICPSCAPE_INSTANTIATE_SIMD_LEVELS(NeighborSearchAt);
+
+TEST_P(NeighborSearchAt, RandomPoints) {
+  const PointCloud cloud = Uniform(2000, 1);
+  const PointCloud queries = Uniform(101, 2);
+  ExpectEqualsBruteForce(cloud, queries);
+  ExpectMomentsEqualBruteForce(cloud, queries);
+}
+
+TEST_P(NeighborSearchAt, TiesAndDuplicatesGoToTheLowerIndex) {
+  const PointCloud cloud = testing_support::CloudWithTies(3000, 1);
+  PointCloud queries;
+  for (std::size_t i = 0; i < 100; ++i) {
+    testing_support::AddPoint(cloud.Point(i), &queries);
+    testing_support::AddPoint(cloud.Point(i) + Vec3(0.25, -0.25, 0), &queries);
+  }
+  ExpectEqualsBruteForce(cloud, queries);
+  ExpectMomentsEqualBruteForce(cloud, queries);
+}
+
+TEST_P(NeighborSearchAt, DegenerateClouds) {
+  PointCloud equal, line, one, two;
   for (int i = 0; i < 100; ++i) {
     testing_support::AddPoint({1, 2, 3}, &equal);
     testing_support::AddPoint({0.1 * i, 0, 0}, &line);
   }
   testing_support::AddPoint({1, 2, 3}, &one);
-  const std::vector<Eigen::Vector3f> queries = {{1, 2, 3}, {0, 0, 0}, {100, -100, 50}};
-  ExpectEqualsBruteForce(equal, queries);
-  ExpectEqualsBruteForce(line, queries);
-  ExpectEqualsBruteForce(one, queries);
+  testing_support::AddPoint({1, 2, 3}, &two);
+  testing_support::AddPoint({1, 2, 4}, &two);
+  const PointCloud queries = Cloud({{1, 2, 3}, {0, 0, 0}, {100, -100, 50}});
+  for (const PointCloud& cloud : {equal, line, one, two, PointCloud()}) {
+    ExpectEqualsBruteForce(cloud, queries);
+    ExpectMomentsEqualBruteForce(cloud, queries);
+  }
 }
 
-TEST(NeighborSearch, EmptyCloudHasNoNeighbors) {
-  const PointCloud empty;
-  const NeighborSearch search(empty.View());
-  std::vector<Neighbor> found;
-  EXPECT_EQ(search.Nearest({0, 0, 0}, 1e30F).index, -1);
-  search.KNearest(Eigen::Vector3f(0, 0, 0), 5, &found);
-  EXPECT_TRUE(found.empty());
-  search.WithinRadius(Eigen::Vector3f(0, 0, 0), 5, &found);
-  EXPECT_TRUE(found.empty());
+// What many drivers write for "no return"; a tree of such points alone has one leaf.
+TEST_P(NeighborSearchAt, AThousandReturnsAtTheOrigin) {
+  PointCloud cloud = Uniform(500, 3);
+  for (int i = 0; i < 1000; ++i) {
+    testing_support::AddPoint({0, 0, 0}, &cloud);
+  }
+  PointCloud queries = Uniform(20, 4);
+  testing_support::AddPoint({0, 0, 0}, &queries);
+  ExpectEqualsBruteForce(cloud, queries);
+  ExpectMomentsEqualBruteForce(cloud, queries);
 }
 
-TEST(NeighborSearch, EqualsBruteForceOnARealScan) {
+TEST_P(NeighborSearchAt, WhatIsNotFiniteHasNoNeighborsAndIsNone) {
+  PointCloud cloud = Uniform(300, 5);
+  for (std::size_t i = 0; i < cloud.size(); i += 3) {
+    cloud.x[i] = i % 2 == 0 ? kNaN : kInfinity;
+    cloud.z[i + 1] = i % 2 == 0 ? -kInfinity : cloud.z[i + 1];
+  }
+  PointCloud queries = Uniform(21, 6);
+  for (std::size_t i = 0; i < queries.size(); i += 2) {
+    queries.y[i] = i % 4 == 0 ? kNaN : -kInfinity;
+  }
+  // The brute force's distances are NaN or infinite there.
+  ExpectEqualsBruteForce(cloud, queries);
+  ExpectMomentsEqualBruteForce(cloud, queries);
+  EXPECT_EQ(NeighborSearch(cloud.View()).Order().size(), 150U);
+}
+
+// Too far for the square of a float, and as near as floats can be.
+TEST_P(NeighborSearchAt, ExtremeCoordinates) {
+  const PointCloud cloud = Cloud({{3e38F, 0, 0}, {1e19F, 0, 0}, {1e-30F, 0, 0}, {0, 1e-40F, 0}});
+  ExpectEqualsBruteForce(cloud, Cloud({{0, 0, 0}, {1e19F, 0, 0}, {-3e38F, 0, 0}}));
+}
+
+TEST_P(NeighborSearchAt, OrderIsAPermutationAndItsPointsFollow) {
+  const PointCloud cloud = Uniform(777, 7);
+  const NeighborSearch search(cloud.View());
+  std::vector<std::int32_t> order = search.Order();
+  for (std::size_t k = 0; k < order.size(); ++k) {
+    EXPECT_EQ(search.OrderedPoints().x[k], cloud.x[static_cast<std::size_t>(order[k])]);
+  }
+  std::sort(order.begin(), order.end());
+  for (std::size_t i = 0; i < cloud.size(); ++i) {
+    ASSERT_EQ(order[i], static_cast<std::int32_t>(i));
+  }
+}
+
+TEST_P(NeighborSearchAt, EqualsBruteForceOnARealScan) {
   ICPSCAPE_SKIP_WITHOUT_KITTI();
   const std::filesystem::path root = KittiRoot();
   DroppedPoints dropped;
   const KittiSequence sequence(root, "00");
   const PointCloud target = ReadVelodyne(sequence.ScanPath(94), &dropped);
   const PointCloud source = ReadVelodyne(sequence.ScanPath(95), &dropped);
-  std::vector<Eigen::Vector3f> queries;
+  PointCloud queries;
   for (std::size_t i = 0; i < source.size(); i += source.size() / 40) {
-    queries.emplace_back(source.x[i], source.y[i], source.z[i]);
+    testing_support::AddPoint(source.Point(i), &queries);
   }
   ExpectEqualsBruteForce(target, queries);
+  ExpectMomentsEqualBruteForce(target, queries);
+}
+
+// A peer's tree on whole scans. It does not promise who wins a tie, so distances are compared.
+struct NanoflannCloud {
+  const PointCloud& cloud;
+  std::size_t kdtree_get_point_count() const { return cloud.size(); }
+  float kdtree_get_pt(std::size_t i, std::size_t axis) const {
+    return axis == 0 ? cloud.x[i] : axis == 1 ? cloud.y[i] : cloud.z[i];
+  }
+  template <class Box>
+  bool kdtree_get_bbox(Box& /*box*/) const {
+    return false;
+  }
+};
+
+void ExpectEqualsNanoflann(const PointCloud& target, const PointCloud& source) {
+  using Tree =
+      nanoflann::KDTreeSingleIndexAdaptor<nanoflann::L2_Simple_Adaptor<float, NanoflannCloud>,
+                                          NanoflannCloud, 3, int>;
+  const NanoflannCloud adaptor{target};
+  Tree tree(3, adaptor, nanoflann::KDTreeSingleIndexAdaptorParams(10));
+  const NeighborSearch search(target.View());
+  std::vector<Neighbor> ours;
+  search.KNearest(source.View(), 5, &ours);
+  for (std::size_t i = 0; i < source.size(); ++i) {
+    int index[5];
+    float squared_distance[5];
+    nanoflann::KNNResultSet<float, int> result(5);
+    result.init(index, squared_distance);
+    tree.findNeighbors(result, PointOf(source, i).data(), nanoflann::SearchParams());
+    for (std::size_t n = 0; n < 5; ++n) {
+      ASSERT_EQ(ours[5 * i + n].squared_distance, squared_distance[n]) << i;
+    }
+  }
+}
+
+TEST_P(NeighborSearchAt, EqualsNanoflannOnAWholeRealPair) {
+  ICPSCAPE_SKIP_WITHOUT_KITTI();
+  const KittiSequence sequence(KittiRoot(), "07");
+  DroppedPoints dropped;
+  ExpectEqualsNanoflann(ReadVelodyne(sequence.ScanPath(0), &dropped),
+                        ReadVelodyne(sequence.ScanPath(4), &dropped));
+}
+
+TEST_P(NeighborSearchAt, EqualsNanoflannOnAMovedRoom) {
+  const SE3d motion = SE3d::Exp((Vec6() << 0.01, 0, 0.05, 0.3, 0.1, 0).finished());
+  ExpectEqualsNanoflann(testing_support::Room(20000, 1, SE3d(), 0.01),
+                        testing_support::Room(20000, 2, motion, 0.01));
 }
 
 }  // namespace
