@@ -31,7 +31,10 @@ struct PointToPoint {
   Mat<double, kDim, 6> Jacobian(const SE3d& T_target_source) const {
     const Mat3& R = T_target_source.R();
     Mat<double, kDim, 6> J;
-    J << -R * Skew<double>(p_source), R;
+    for (int row = 0; row < kDim; ++row) {
+      // a^T [-skew(p)] = (p x a)^T.
+      J.row(row) << p_source.cross(R.row(row).transpose()).transpose(), R.row(row);
+    }
     return J;
   }
 };

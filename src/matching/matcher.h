@@ -40,6 +40,8 @@ class Matcher {
 
   const PointCloud& source() const { return source_.cloud(); }
   const PointCloud& target() const { return target_.cloud(); }
+  const SearchableCloud& searchable_source() const { return source_; }
+  const SearchableCloud& searchable_target() const { return target_; }
 
   /// Union of Needs that the matches satisfy (normals come from the clouds).
   virtual unsigned Provides() const = 0;
@@ -69,10 +71,6 @@ class Matcher {
   virtual bool Rejects() const { return false; }
   virtual void Reject(const SE3d& /*T_target_source*/, int /*threads*/,
                       Matches* /*matches*/) const {}
-
- protected:
-  const SearchableCloud& searchable_source() const { return source_; }
-  const SearchableCloud& searchable_target() const { return target_; }
 
  private:
   SearchableCloud source_;

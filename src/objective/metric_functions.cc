@@ -39,9 +39,10 @@ Vec6 Gradient(const Residual& r, const Jacobian& J) {
   return gradient;
 }
 
+// Flattened: with everything inlined the compiler keeps a pair in registers.
 template <class Metric, Derivatives kDerivatives>
-void EvaluateBlock(const PairBlock& block, const SE3d& T, const ceres::LossFunction* loss,
-                   Evaluation* sums) {
+__attribute__((flatten)) void EvaluateBlock(const PairBlock& block, const SE3d& T,
+                                            const ceres::LossFunction* loss, Evaluation* sums) {
   // Without a loss and with eps a sum of squares, all sums follow from these.
   const bool plain = loss == nullptr && Metric::kEpsilon == Epsilon::kSquared;
   NormalEquations own;

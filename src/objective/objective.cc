@@ -49,9 +49,9 @@ void Objective::AddResidualBlocks(const Matches& matches, const ceres::LossFunct
   // Ceres takes a mutable pointer but never changes the loss; the caller sees to the ownership.
   auto* shared_loss = const_cast<ceres::LossFunction*>(loss);
   PairBlock block;
-  for (std::size_t i = 0; i < matches.target_index.size(); ++i) {
+  for (std::size_t k = 0; k < matcher_->Order().size(); ++k) {
     block.size = 0;
-    block.Add(*matcher_, matches, i, i, needs());
+    block.Add(*matcher_, matches, static_cast<std::size_t>(matcher_->Order()[k]), k, needs());
     ceres::CostFunction* cost = block.size == 0 ? nullptr : functions_->make_cost(block, 0);
     if (cost != nullptr) {
       problem->AddResidualBlock(cost, shared_loss, x);

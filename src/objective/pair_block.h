@@ -19,11 +19,50 @@ struct PairBlock {
   std::array<unsigned, kCapacity> provided;
   std::size_t size = 0;
 
-  /// Adds source point i with the match that is entry m of the matches; nothing where there is
-  /// none. Of what `needs` does not ask for, nothing is looked up.
-  void Add(const Matcher& matcher, const Matches& matches, std::size_t m, std::size_t i,
+  /// Adds the source point at place k of the matcher's order with the match that is entry m of the
+  /// matches; nothing where there is none. Fits are looked up only if `needs` asks for them.
+  void Add(const Matcher& matcher, const Matches& matches, std::size_t m, std::size_t k,
            unsigned needs);
+
+  /// Fetches into the cache what Add will look up for entry m: where a match is in the memory is
+  /// not for the processor to guess.
+  static void Prefetch(const Matcher& matcher, const Matches& matches, std::size_t m) {
+    if (matches.target_index[m] >= 0) {
+      __builtin_prefetch(&Target(matcher, matches, m));
+    }
+  }
+
+ private:
+  static const PackedPoint& Target(const Matcher& matcher, const Matches& matches, std::size_t m) {
+    const SearchableCloud& target = matcher.searchable_target();
+    const auto j = static_cast<std::size_t>(matches.target_index[m]);
+    return target.packed()[static_cast<std::size_t>(target.Place(j))];
+  }
 };
+
+// In the header, because it is half of a pass that the search does not take.
+inline void PairBlock::Add(const Matcher& matcher, const Matches& matches, std::size_t m,
+                           std::size_t k, unsigned needs) {
+  if (matches.target_index[m] < 0) {
+    return;
+  }
+  const PackedPoint& source = matcher.searchable_source().packed()[k];
+  const PackedPoint& target = Target(matcher, matches, m);
+  Correspondence& c = pairs[size];
+  c.p_source = source.Point();
+  c.q_target = target.Point();
+  c.n_source = source.Normal();
+  c.n_target = target.Normal();
+  provided[size] = kTargetLine | kTargetPatch | (source.NormalIsValid() ? kSourceNormal : 0U) |
+                   (target.NormalIsValid() ? kTargetNormal : 0U);
+  if ((needs & (kTargetLine | kTargetPatch)) != 0) {
+    const LocalFit& fit = matches.fits[m];
+    c.a_line = c.q_patch = fit.anchor;
+    c.d_line = c.n_patch = fit.direction;
+    c.area_patch = matcher.area_patch();
+  }
+  ++size;
+}
 
 }  // namespace icpscape
 

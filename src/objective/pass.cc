@@ -45,10 +45,16 @@ class GroupPass {
   /// where `in_order`, one for each of these.
   void Sum(std::size_t begin, std::size_t end, const Matches& matches, bool in_order,
            Evaluation* sums) const {
+    const auto entry = [&](std::size_t k) {
+      return in_order ? k - begin : static_cast<std::size_t>(matcher_.Order()[k]);
+    };
+    constexpr std::size_t kAhead = 32;
     PairBlock block;
     for (std::size_t k = begin; k < end; ++k) {
-      const auto i = static_cast<std::size_t>(matcher_.Order()[k]);
-      block.Add(matcher_, matches, in_order ? k - begin : i, i, needs_);
+      if (k + kAhead < end) {
+        PairBlock::Prefetch(matcher_, matches, entry(k + kAhead));
+      }
+      block.Add(matcher_, matches, entry(k), k, needs_);
       if (block.size == PairBlock::kCapacity || k + 1 == end) {
         for (std::size_t m = 0; m < objectives_.size(); ++m) {
           objectives_[m]->Add(block, T_, derivatives_, &sums[m]);

@@ -26,9 +26,10 @@ class EverySimdLevel : public ::testing::TestWithParam<SimdLevel> {
   ScopedSimdLevel level_{GetParam()};
 };
 
-#define ICPSCAPE_INSTANTIATE_SIMD_LEVELS(fixture)                                          \
-  INSTANTIATE_TEST_SUITE_P(Level, fixture, ::testing::ValuesIn(SupportedSimdLevels()),     \
-                           [](const auto& test) { return std::string(SimdLevelName(test.param)); })
+#define ICPSCAPE_INSTANTIATE_SIMD_LEVELS(fixture)                 \
+  INSTANTIATE_TEST_SUITE_P(                                       \
+      Level, fixture, ::testing::ValuesIn(SupportedSimdLevels()), \
+      [](const auto& test) { return std::string(SimdLevelName(test.param)); })
 
 }  // namespace icpscape::testing_support
 
