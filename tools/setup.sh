@@ -19,10 +19,11 @@ for option in "$@"; do
   case "$option" in
     --with-checks) packages+=(clang-format clang-tidy) ;;
     --with-comparison) packages+=(python3-scipy) ;;
+    --with-benchmarks) packages+=(libbenchmark-dev libopen3d-dev) ;;
     --with-latex) packages+=(texlive-latex-base texlive-pictures poppler-utils) ;;
     *)
-      echo "setup.sh: unknown option $option; expected --with-checks, --with-comparison or" \
-        "--with-latex" >&2
+      echo "setup.sh: unknown option $option; expected --with-benchmarks, --with-checks," \
+        "--with-comparison or --with-latex" >&2
       exit 1
       ;;
   esac

@@ -1,0 +1,27 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#ifndef ICPSCAPE_TESTS_BENCHMARKS_ROWS_H_
+#define ICPSCAPE_TESTS_BENCHMARKS_ROWS_H_
+
+#include "apps/pair_flags.h"
+
+namespace icpscape {
+
+// What one table of ratios consists of: each function registers its comparisons over the pair,
+// which has normals, features and a ground truth, and must outlive the run. The goals are issue
+// 5's.
+
+void RegisterNeighborSearch(const ScanPair& pair, int rounds);
+void RegisterNormals(const ScanPair& pair, int rounds);
+void RegisterVoxelFilter(const ScanPair& pair, int rounds);
+void RegisterLandscape(const ScanPair& pair, int rounds);
+void RegisterClosedLoop(const ScanPair& pair, int rounds);
+
+/// "t1", for names, and "1 thread", for people.
+inline std::string ThreadsName(int threads) { return "t" + std::to_string(threads); }
+inline std::string ThreadsTitle(int threads) {
+  return std::to_string(threads) + (threads == 1 ? " thread" : " threads");
+}
+
+}  // namespace icpscape
+
+#endif  // ICPSCAPE_TESTS_BENCHMARKS_ROWS_H_
