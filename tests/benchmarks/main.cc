@@ -3,11 +3,11 @@
 #include <gflags/gflags.h>
 #include <glog/logging.h>
 
-#include <cstdlib>
 #include <iostream>
 
 #include "apps/pair_flags.h"
 #include "src/common/error.h"
+#include "src/simd/level.h"
 #include "tests/benchmarks/comparison.h"
 #include "tests/benchmarks/rows.h"
 
@@ -18,11 +18,11 @@ namespace {
 
 // What the table needs to know besides the times.
 void AddContext(const ScanPair& pair) {
-  const char* const simd = std::getenv("ICPSCAPE_SIMD");
   benchmark::AddCustomContext("pair", pair.title);
   benchmark::AddCustomContext("source_points", std::to_string(pair.source.size()));
   benchmark::AddCustomContext("target_points", std::to_string(pair.target.size()));
-  benchmark::AddCustomContext("simd", simd != nullptr ? simd : "default");
+  benchmark::AddCustomContext("simd", SimdLevelName(ActiveSimdLevel()));
+  benchmark::AddCustomContext("widest_simd", SimdLevelName(SupportedSimdLevels().back()));
   benchmark::AddCustomContext("rounds", std::to_string(FLAGS_rounds));
   benchmark::AddCustomContext("icpscape", Version());
   benchmark::AddCustomContext("compiler", std::string("g++ ") + __VERSION__);

@@ -3,27 +3,10 @@
 
 #include <algorithm>
 #include <limits>
-#include <numeric>
 
 #include "src/common/parallel.h"
 
 namespace icpscape {
-
-void NearestOfAll(const NeighborSearch& search, const PointsView& queries, std::int32_t* index,
-                  float* squared_distance) {
-  for (std::size_t i = 0; i < queries.size; ++i) {
-    const Neighbor nearest = search.Nearest({queries.x[i], queries.y[i], queries.z[i]},
-                                            std::numeric_limits<float>::max());
-    index[i] = nearest.index;
-    squared_distance[i] = nearest.squared_distance;
-  }
-}
-
-std::vector<std::int32_t> SpatialOrder(const NeighborSearch& /*search*/, const PointCloud& cloud) {
-  std::vector<std::int32_t> order(cloud.size());
-  std::iota(order.begin(), order.end(), 0);
-  return order;
-}
 
 void NearestOfAll(const NeighborSearch& search, const PointCloud& queries, int threads,
                   NearestResult* result) {
@@ -32,8 +15,8 @@ void NearestOfAll(const NeighborSearch& search, const PointCloud& queries, int t
     const std::size_t begin = chunk * kChunk;
     const PointsView part = {queries.x.data() + begin, queries.y.data() + begin,
                              queries.z.data() + begin, std::min(kChunk, queries.size() - begin)};
-    NearestOfAll(search, part, result->index.data() + begin,
-                 result->squared_distance.data() + begin);
+    search.Nearest(part, std::numeric_limits<float>::max(), result->index.data() + begin,
+                   result->squared_distance.data() + begin);
   });
 }
 

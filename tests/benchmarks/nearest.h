@@ -18,18 +18,10 @@ struct NearestResult {
   explicit NearestResult(std::size_t size = 0) : index(size), squared_distance(size) {}
 };
 
-/// How this library searches for many queries at once; fast where consecutive ones lie close
-/// together.
-void NearestOfAll(const NeighborSearch& search, const PointsView& queries, std::int32_t* index,
-                  float* squared_distance);
-
-/// The same for a whole cloud on `threads` threads.
+/// Every query's nearest point, by this library's batch search on `threads` threads.
 void NearestOfAll(const NeighborSearch& search, const PointCloud& queries, int threads,
                   NearestResult* result);
 NearestResult NearestOfAll(const NeighborSearch& search, const PointCloud& queries);
-
-/// Indices of a cloud's points, neighbours next to each other. `search` is over this cloud.
-std::vector<std::int32_t> SpatialOrder(const NeighborSearch& search, const PointCloud& cloud);
 
 /// Coordinates in that order.
 PointCloud Reordered(const PointCloud& cloud, const std::vector<std::int32_t>& order);

@@ -1,5 +1,4 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include <cstdlib>
 #include <memory>
 #include <utility>
 
@@ -19,7 +18,7 @@ struct Work {
   Work(const PointCloud& source, const PointCloud& target_cloud, const SE3d& T)
       : target(target_cloud),
         in_file_order(source.Transformed(T)),
-        order(SpatialOrder(NeighborSearch(source.View()), source)),
+        order(NeighborSearch(source.View()).Order()),
         in_tree_order(Reordered(in_file_order, order)),
         ours(in_file_order.size()),
         theirs(in_file_order.size()) {}
@@ -42,10 +41,7 @@ struct Work {
 };
 
 // On the narrowest vectors half the speed is asked for.
-double NanoflannGoal() {
-  const char* const level = std::getenv("ICPSCAPE_SIMD");
-  return level != nullptr && std::string(level) == "sse2" ? 2 : 4;
-}
+double NanoflannGoal() { return ActiveSimdLevel() == SimdLevel::kBaseline ? 2 : 4; }
 
 // Searches whose trees stand and whose queries are ordered.
 void RegisterSearches(const ScanPair& pair, const std::string& pose, const SE3d& T, int rounds) {
@@ -73,7 +69,7 @@ void RegisterSearches(const ScanPair& pair, const std::string& pose, const SE3d&
     const double one = threads == 1 ? 1 : 0;  // The goals are for one thread.
     add("nanoflann", "nanoflann", one * NanoflannGoal(), threads, 0,
         [=] { nanoflann->Nearest(work->in_file_order, threads, &work->theirs); });
-    add("pcl", "PCL", one * 15, threads, 0,
+    add("pcl", "PCL", one * FromAvx2(15), threads, 0,
         [=] { pcl->Nearest(pcl_queries, threads, &work->theirs); });
     if (!Open3dVersion().empty()) {
       const Open3dCloud queries = MakeOpen3dCloud(work->in_file_order);
@@ -127,8 +123,7 @@ void RegisterTrees(const ScanPair& pair, int rounds) {
   Register({"nearest/order",
             "ordering the queries",
             0,
-            {"icpscape",
-             [&source] { Reordered(source, SpatialOrder(NeighborSearch(source.View()), source)); }},
+            {"icpscape", [&source] { Reordered(source, NeighborSearch(source.View()).Order()); }},
             {}},
            rounds);
   // Everything, for a cloud that is searched for only once.
@@ -140,8 +135,7 @@ void RegisterTrees(const ScanPair& pair, int rounds) {
              [=] {
                const NeighborSearch search(work->target.View());
                const PointCloud queries = Reordered(
-                   work->in_file_order,
-                   SpatialOrder(NeighborSearch(work->in_file_order.View()), work->in_file_order));
+                   work->in_file_order, NeighborSearch(work->in_file_order.View()).Order());
                NearestOfAll(search, queries, 1, &work->ours);
              }},
             {"nanoflann",

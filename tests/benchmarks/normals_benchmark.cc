@@ -13,7 +13,7 @@ namespace icpscape {
 // Each side builds its tree.
 void RegisterNormals(const ScanPair& pair, int rounds) {
   constexpr int kNeighbors = 20;
-  constexpr double kGoal = 5;
+  const double goal = FromAvx2(5);
   const auto run_ours = [](int threads, PointCloud* cloud) {
     NeighborhoodOptions options;
     options.num_neighbors = kNeighbors;
@@ -28,7 +28,7 @@ void RegisterNormals(const ScanPair& pair, int rounds) {
     Register(
         {"normals/" + ThreadsName(threads) + "/pcl",
          title,
-         kGoal,
+         goal,
          ours,
          {"PCL NormalEstimationOMP", [=] { *theirs = PclNormals(pcl_cloud, kNeighbors, threads); }},
          [=] { CheckNormals("PCL", *cloud, *theirs); }},
@@ -39,7 +39,7 @@ void RegisterNormals(const ScanPair& pair, int rounds) {
       Register(
           {"normals/" + ThreadsName(threads) + "/open3d",
            title,
-           kGoal,
+           goal,
            ours,
            {"Open3D", [=] { *estimated = WithOpen3dNormals(open3d_cloud, kNeighbors, threads); }},
            [=] { CheckNormals("Open3D", *cloud, Open3dNormals(*estimated)); }},

@@ -2,7 +2,10 @@
 #ifndef ICPSCAPE_TESTS_BENCHMARKS_ROWS_H_
 #define ICPSCAPE_TESTS_BENCHMARKS_ROWS_H_
 
+#include <string>
+
 #include "apps/pair_flags.h"
+#include "src/simd/level.h"
 
 namespace icpscape {
 
@@ -15,6 +18,10 @@ void RegisterNormals(const ScanPair& pair, int rounds);
 void RegisterVoxelFilter(const ScanPair& pair, int rounds);
 void RegisterLandscape(const ScanPair& pair, int rounds);
 void RegisterClosedLoop(const ScanPair& pair, int rounds);
+
+/// The goal of work that is measured at AVX2 and above; 0, for none, where the program was told to
+/// run at the baseline.
+inline double FromAvx2(double goal) { return ActiveSimdLevel() == SimdLevel::kBaseline ? 0 : goal; }
 
 /// "t1", for names, and "1 thread", for people.
 inline std::string ThreadsName(int threads) { return "t" + std::to_string(threads); }
