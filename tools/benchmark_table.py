@@ -62,6 +62,9 @@ class Pair:
         self.context = context
         self.rows = []
 
+    def short_title(self):
+        return self.title.split(",")[0] if self.title.startswith("simulated") else self.title
+
 
 def milliseconds(value):
     return "" if value is None else f"{value:.1f}" if value < 100 else f"{value:.0f}"
@@ -113,7 +116,7 @@ def goals_table(pairs):
                                         + [""] * len(pairs))
                 line[3 + i] = row.error and row.verdict() or \
                     number(row.ratio) + ("" if row.ratio >= row.goal else " **short**")
-    return markdown_table(["work", "peer", "goal"] + [pair.title for pair in pairs],
+    return markdown_table(["work", "peer", "goal"] + [pair.short_title() for pair in pairs],
                           lines.values())
 
 
@@ -145,9 +148,9 @@ def machine_lines(context):
 def document(pairs, command):
     context = pairs[0].context
     out = ["# Benchmarks", "",
-           f"Written by `{command}`; do not edit. [Issue 5's goals](../CONTRIBUTING.md) are "
-           "ratios: time of the peer by time of icpscape, on the same data, with the same answer "
-           "(which is checked; a difference fails the run).", ""]
+           f"Written by `{command}`; do not edit. Ratios are the time of the peer by the time of "
+           "icpscape, on the same data and with the same answer (which is checked: a difference "
+           "fails the run). The goals were set before the code was written.", ""]
     out += machine_lines(context)
     out += ["",
             f"The two sides of a row run in turn, {context['rounds']} times; times are medians, "

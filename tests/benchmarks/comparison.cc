@@ -31,11 +31,11 @@ double Quantile(std::vector<double> values, double q) {
 }
 
 void Run(const Comparison& comparison, benchmark::State* state) {
-  comparison.ours.run();
-  if (comparison.peer.run) {
-    comparison.peer.run();
-  }
   try {
+    comparison.ours.run();
+    if (comparison.peer.run) {
+      comparison.peer.run();
+    }
     if (comparison.check) {
       comparison.check();
     }
