@@ -89,17 +89,17 @@ LoopResult RegisterByHand(const PointCloud& source, const PointCloud& target, in
   const ClosestPointMatcher matcher(source, target, matching);
   LoopResult result;
   Matches matches;
-  for (bool done = false;;) {
+  for (;;) {
     matcher.Match(result.T_target_source, threads, &matches);
     ++result.matching_passes;
     const Sums sums = SumsOf(source, target, matches, result.T_target_source, threads);
     result.cost = sums.cost;
-    if (done || result.matching_passes > kLoopMaxIterations) {
+    const SE3d step = SE3d::Exp(GaussNewtonStep(sums));
+    if ((step.t().norm() < kLoopMinStepM && step.LogRotation().norm() < kLoopMinStepRad) ||
+        result.matching_passes > kLoopMaxIterations) {
       return result;
     }
-    const SE3d step = SE3d::Exp(GaussNewtonStep(sums));
     result.T_target_source = (result.T_target_source * step).Normalized();
-    done = step.t().norm() < kLoopMinStepM && step.LogRotation().norm() < kLoopMinStepRad;
   }
 }
 

@@ -8,8 +8,8 @@
 
 namespace icpscape {
 
-// Point-to-plane registration from the identity, written in several ways. All stop when a step is
-// below both limits, build what trees they need, and take the target's normals as given.
+// Point-to-plane registration from the identity, written in several ways. All stop at a step below
+// both limits, build what trees they need, and take the target's normals as given.
 
 inline constexpr double kLoopGateM = 1;
 inline constexpr double kLoopMinStepM = 1e-3;
@@ -25,8 +25,8 @@ struct LoopResult {
 /// This library's Minimize, through Ceres.
 LoopResult RegisterOurs(const PointCloud& source, const PointCloud& target, int threads);
 
-/// Gauss-Newton by hand in double on this library's matcher. Like Minimize it ends with the cost at
-/// its result, matched anew.
+/// Gauss-Newton by hand in double on this library's matcher. Like Minimize it stops before the step
+/// that is too short, so that its result has been matched and summed.
 LoopResult RegisterByHand(const PointCloud& source, const PointCloud& target, int threads);
 
 /// The loop of A-LOAM's odometry, which many have taken over: for every association a new
