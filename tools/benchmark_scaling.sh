@@ -9,7 +9,7 @@ cd "$(dirname "$0")/.."
 scene=straight_street
 steps=(2.1 0.665 0.21 0.0665 0.021)  # Degrees: about 1e4, 3e4, 1e5, 3e5 and 1e6 points.
 poses=10,30,100,300,1000,3000,10000
-repetitions=5
+repetitions=3
 document=docs/scaling.md picture=docs/images/scaling.svg
 if [ -n "$quick" ]; then
   steps=(2.1 0.21) poses=10,100 repetitions=1
