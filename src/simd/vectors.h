@@ -76,6 +76,13 @@ inline unsigned Bits(IntV mask) {
 #endif
 }
 inline bool AnyTrue(IntV mask) { return Bits(mask) != 0; }
+inline bool AnyLessEqual(FloatV a, FloatV b) {
+#if defined(__AVX512F__)
+  return _mm512_cmp_ps_mask(a, b, _CMP_LE_OQ) != 0;  // Without a detour through a vector.
+#else
+  return AnyTrue(a <= b);
+#endif
+}
 inline bool AnyTrue(LongV mask) { return Bits(reinterpret_cast<IntV>(mask)) != 0; }
 
 inline DoubleV Sqrt(DoubleV v) {
