@@ -46,19 +46,21 @@ inline EpsilonTerm EvaluateEpsilon(Epsilon epsilon, double s) {
 
 /// All that a matcher can provide about one pair. Built on the fly from the clouds, never stored in
 /// arrays; what a metric does not need may be left unset.
-struct Correspondence {
-  Vec3 p_source;  ///< Point, source frame (m).
-  Vec3 q_target;  ///< Its match, target frame (m).
-  Vec3 n_source;  ///< Unit normal at p_source, source frame (kSourceNormal).
-  Vec3 n_target;  ///< Unit normal at q_target, target frame (kTargetNormal).
+template <class Scalar>
+struct CorrespondenceOf {
+  Vec<Scalar, 3> p_source;  ///< Point, source frame (m).
+  Vec<Scalar, 3> q_target;  ///< Its match, target frame (m).
+  Vec<Scalar, 3> n_source;  ///< Unit normal at p_source, source frame (kSourceNormal).
+  Vec<Scalar, 3> n_target;  ///< Unit normal at q_target, target frame (kTargetNormal).
 
-  Vec3 a_line;  ///< A point on the line fitted to neighbours in the target (kTargetLine).
-  Vec3 d_line;  ///< The line's unit direction, target frame.
+  Vec<Scalar, 3> a_line;  ///< A point on the line fitted to neighbours in the target (kTargetLine).
+  Vec<Scalar, 3> d_line;  ///< The line's unit direction, target frame.
 
-  Vec3 q_patch;           ///< Corner of the patch fitted in the target (kTargetPatch).
-  Vec3 n_patch;           ///< The patch's unit normal, target frame.
-  double area_patch = 0;  ///< |(q_j - q_k) x (q_j - q_l)| of its virtual triangle (m^2).
+  Vec<Scalar, 3> q_patch;  ///< Corner of the patch fitted in the target (kTargetPatch).
+  Vec<Scalar, 3> n_patch;  ///< The patch's unit normal, target frame.
+  Scalar area_patch{0};    ///< |(q_j - q_k) x (q_j - q_l)| of its virtual triangle (m^2).
 };
+using Correspondence = CorrespondenceOf<double>;
 
 }  // namespace icpscape
 

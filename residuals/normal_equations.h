@@ -36,11 +36,6 @@ struct NormalEquations {
   template <class Residual, class Jacobian>
   void Add(const Residual& r, const Jacobian& J, const double rho[3]) {
     AddScaled(r, J, rho[1]);
-    AddValue(rho);
-  }
-
-  /// The value alone, without derivatives.
-  void AddValue(const double rho[3]) {
     cost += 0.5 * rho[0];
     upward_loss |= rho[2] > 0;
     ++num_correspondences;

@@ -16,7 +16,8 @@ namespace icpscape {
 /// metric: a slide within the plane costs as much as the same distance off it; and it depends on
 /// the size of the virtual triangle, A being twice its area. LOAM's own distance is PlanarToPlane.
 /// Smooth everywhere.
-struct PlanarToPatch {
+template <class Scalar>
+struct PlanarToPatchOf {
   static constexpr char kName[] = "planar_to_patch";
   static constexpr char kFormula[] = "(T p - q) / |n|";
   static constexpr char kSource[] = "paper sec. 2.4.2, as printed";
@@ -24,32 +25,34 @@ struct PlanarToPatch {
   static constexpr unsigned kNeeds = kTargetPatch;
   static constexpr Epsilon kEpsilon = Epsilon::kSoftNorm;
 
-  Vec3 p_source;
-  Vec3 q_patch;
-  double area_patch;
+  Vec<Scalar, 3> p_source;
+  Vec<Scalar, 3> q_patch;
+  Scalar area_patch;
 
-  static PlanarToPatch From(const Correspondence& c) {
+  static PlanarToPatchOf From(const CorrespondenceOf<Scalar>& c) {
     return {c.p_source, c.q_patch, c.area_patch};
   }
 
   template <class S>
   Vec<S, kDim> Residual(const SE3<S>& T_target_source) const {
-    const Vec<S, 3> e = T_target_source * p_source.cast<S>() - q_patch.cast<S>();
+    const Vec<S, 3> e = T_target_source * p_source.template cast<S>() - q_patch.template cast<S>();
     return e / S(area_patch);
   }
 
-  Mat<double, kDim, 6> Jacobian(const SE3d& T_target_source) const {
-    const Mat3 R = T_target_source.R() / area_patch;
-    Mat<double, kDim, 6> J;
-    J << -R * Skew<double>(p_source), R;
+  Mat<Scalar, kDim, 6> Jacobian(const SE3<Scalar>& T_target_source) const {
+    const Mat<Scalar, 3, 3> R = T_target_source.R() / area_patch;
+    Mat<Scalar, kDim, 6> J;
+    J << -R * Skew<Scalar>(p_source), R;
     return J;
   }
 };
+using PlanarToPatch = PlanarToPatchOf<double>;
 
 /// Planar point to planar patch as in LOAM: the signed distance from the plane through the patch
 /// [Zhang & Singh 2014, eq. 3]. Formula and derivative are PointToPlane's; the plane is fitted to
 /// the neighbours of T p instead of being a precomputed normal of the closest point.
-struct PlanarToPlane {
+template <class Scalar>
+struct PlanarToPlaneOf {
   static constexpr char kName[] = "planar_to_plane";
   static constexpr char kFormula[] = "(T p - q) . n";
   static constexpr char kSource[] = "Zhang & Singh 2014 (LOAM), eq. 3";
@@ -57,19 +60,20 @@ struct PlanarToPlane {
   static constexpr unsigned kNeeds = kTargetPatch;
   static constexpr Epsilon kEpsilon = Epsilon::kSquared;
 
-  PointToPlane plane;
+  PointToPlaneOf<Scalar> plane;
 
-  static PlanarToPlane From(const Correspondence& c) {
-    return {PointToPlane{c.p_source, c.q_patch, c.n_patch}};
+  static PlanarToPlaneOf From(const CorrespondenceOf<Scalar>& c) {
+    return {PointToPlaneOf<Scalar>{c.p_source, c.q_patch, c.n_patch}};
   }
   template <class S>
   Vec<S, kDim> Residual(const SE3<S>& T_target_source) const {
     return plane.Residual(T_target_source);
   }
-  Mat<double, kDim, 6> Jacobian(const SE3d& T_target_source) const {
+  Mat<Scalar, kDim, 6> Jacobian(const SE3<Scalar>& T_target_source) const {
     return plane.Jacobian(T_target_source);
   }
 };
+using PlanarToPlane = PlanarToPlaneOf<double>;
 
 }  // namespace icpscape
 

@@ -10,7 +10,8 @@ namespace icpscape {
 ///   r(T) = n_t . (R p_s + t - q_t)             1x1, metres
 ///   J    = n_t^T R [ -skew(p_s) | I ]          1x6, T <- T Exp([omega; v])
 /// Smooth everywhere; the sign of n_t is irrelevant; blind to motion within the plane.
-struct PointToPlane {
+template <class Scalar>
+struct PointToPlaneOf {
   static constexpr char kName[] = "point_to_plane";
   static constexpr char kFormula[] = "(T p - q) . n_q";
   static constexpr char kSource[] = "Chen & Medioni 1992; paper sec. 2.2";
@@ -18,26 +19,29 @@ struct PointToPlane {
   static constexpr unsigned kNeeds = kTargetNormal;
   static constexpr Epsilon kEpsilon = Epsilon::kSquared;
 
-  Vec3 p_source;
-  Vec3 q_target;
-  Vec3 n_target;
+  Vec<Scalar, 3> p_source;
+  Vec<Scalar, 3> q_target;
+  Vec<Scalar, 3> n_target;
 
-  static PointToPlane From(const Correspondence& c) { return {c.p_source, c.q_target, c.n_target}; }
+  static PointToPlaneOf From(const CorrespondenceOf<Scalar>& c) {
+    return {c.p_source, c.q_target, c.n_target};
+  }
 
   template <class S>
   Vec<S, kDim> Residual(const SE3<S>& T_target_source) const {
-    const Vec<S, 3> e = T_target_source * p_source.cast<S>() - q_target.cast<S>();
-    return Vec<S, kDim>(n_target.cast<S>().dot(e));
+    const Vec<S, 3> e = T_target_source * p_source.template cast<S>() - q_target.template cast<S>();
+    return Vec<S, kDim>(n_target.template cast<S>().dot(e));
   }
 
-  Mat<double, kDim, 6> Jacobian(const SE3d& T_target_source) const {
+  Mat<Scalar, kDim, 6> Jacobian(const SE3<Scalar>& T_target_source) const {
     // a^T [-skew(p)] = (p x a)^T, with a the normal seen from the source frame.
-    const Vec3 a = T_target_source.R().transpose() * n_target;
-    Mat<double, kDim, 6> J;
+    const Vec<Scalar, 3> a = T_target_source.R().transpose() * n_target;
+    Mat<Scalar, kDim, 6> J;
     J << p_source.cross(a).transpose(), a.transpose();
     return J;
   }
 };
+using PointToPlane = PointToPlaneOf<double>;
 
 }  // namespace icpscape
 

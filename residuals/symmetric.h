@@ -24,7 +24,8 @@ namespace icpscape {
 ///   J    = m^T R [ -skew(p_s) | I ],  m = n_s + n_t
 /// Smooth everywhere. n_s is added unturned, so it depends on the choice of frames: turning the
 /// target frame alone changes it.
-struct Symmetric {
+template <class Scalar>
+struct SymmetricOf {
   static constexpr char kName[] = "symmetric";
   static constexpr char kFormula[] = "(T p - q) . (n_p + n_q)";
   static constexpr char kSource[] = "paper sec. 2.3, after Rusinkiewicz 2019";
@@ -32,34 +33,36 @@ struct Symmetric {
   static constexpr unsigned kNeeds = kSourceNormal | kTargetNormal;
   static constexpr Epsilon kEpsilon = Epsilon::kSquared;
 
-  Vec3 p_source;
-  Vec3 q_target;
-  Vec3 n_sum;  ///< n_source + n_target, components added as they are.
+  Vec<Scalar, 3> p_source;
+  Vec<Scalar, 3> q_target;
+  Vec<Scalar, 3> n_sum;  ///< n_source + n_target, components added as they are.
 
-  static Symmetric From(const Correspondence& c) {
+  static SymmetricOf From(const CorrespondenceOf<Scalar>& c) {
     return {c.p_source, c.q_target, c.n_source + c.n_target};
   }
 
   template <class S>
   Vec<S, kDim> Residual(const SE3<S>& T_target_source) const {
-    const Vec<S, 3> e = T_target_source * p_source.cast<S>() - q_target.cast<S>();
-    return Vec<S, kDim>(n_sum.cast<S>().dot(e));
+    const Vec<S, 3> e = T_target_source * p_source.template cast<S>() - q_target.template cast<S>();
+    return Vec<S, kDim>(n_sum.template cast<S>().dot(e));
   }
 
-  Mat<double, kDim, 6> Jacobian(const SE3d& T_target_source) const {
-    const Vec3 a = T_target_source.R().transpose() * n_sum;
-    Mat<double, kDim, 6> J;
+  Mat<Scalar, kDim, 6> Jacobian(const SE3<Scalar>& T_target_source) const {
+    const Vec<Scalar, 3> a = T_target_source.R().transpose() * n_sum;
+    Mat<Scalar, kDim, 6> J;
     J << p_source.cross(a).transpose(), a.transpose();
     return J;
   }
 };
+using Symmetric = SymmetricOf<double>;
 
 /// Symmetric objective whose source normal turns with the point [Rusinkiewicz 2019, eq. 10, split
 /// with rotated normals].
 ///   r(T) = e . (R n_s + n_t),  e = R p_s + t - q_t              1x1, metres
 ///   J    = m^T R [ -skew(p_s) | I ] + [ -e^T R skew(n_s) | 0 ],  m = R n_s + n_t
 /// Smooth everywhere; invariant to the choice of either frame.
-struct SymmetricRotated {
+template <class Scalar>
+struct SymmetricRotatedOf {
   static constexpr char kName[] = "symmetric_rotated";
   static constexpr char kFormula[] = "(T p - q) . (R n_p + n_q)";
   static constexpr char kSource[] = "Rusinkiewicz 2019, rotated normals";
@@ -67,31 +70,33 @@ struct SymmetricRotated {
   static constexpr unsigned kNeeds = kSourceNormal | kTargetNormal;
   static constexpr Epsilon kEpsilon = Epsilon::kSquared;
 
-  Vec3 p_source;
-  Vec3 q_target;
-  Vec3 n_source;
-  Vec3 n_target;
+  Vec<Scalar, 3> p_source;
+  Vec<Scalar, 3> q_target;
+  Vec<Scalar, 3> n_source;
+  Vec<Scalar, 3> n_target;
 
-  static SymmetricRotated From(const Correspondence& c) {
+  static SymmetricRotatedOf From(const CorrespondenceOf<Scalar>& c) {
     return {c.p_source, c.q_target, c.n_source, c.n_target};
   }
 
   template <class S>
   Vec<S, kDim> Residual(const SE3<S>& T_target_source) const {
-    const Vec<S, 3> e = T_target_source * p_source.cast<S>() - q_target.cast<S>();
-    const Vec<S, 3> m = T_target_source.R() * n_source.cast<S>() + n_target.cast<S>();
+    const Vec<S, 3> e = T_target_source * p_source.template cast<S>() - q_target.template cast<S>();
+    const Vec<S, 3> m =
+        T_target_source.R() * n_source.template cast<S>() + n_target.template cast<S>();
     return Vec<S, kDim>(m.dot(e));
   }
 
-  Mat<double, kDim, 6> Jacobian(const SE3d& T_target_source) const {
-    const Mat3& R = T_target_source.R();
-    const Vec3 a = n_source + R.transpose() * n_target;                          // R^T m
-    const Vec3 b = p_source + R.transpose() * (T_target_source.t() - q_target);  // R^T e
-    Mat<double, kDim, 6> J;
+  Mat<Scalar, kDim, 6> Jacobian(const SE3<Scalar>& T_target_source) const {
+    const Mat<Scalar, 3, 3>& R = T_target_source.R();
+    const Vec<Scalar, 3> a = n_source + R.transpose() * n_target;                          // R^T m
+    const Vec<Scalar, 3> b = p_source + R.transpose() * (T_target_source.t() - q_target);  // R^T e
+    Mat<Scalar, kDim, 6> J;
     J << (p_source.cross(a) + n_source.cross(b)).transpose(), a.transpose();
     return J;
   }
 };
+using SymmetricRotated = SymmetricRotatedOf<double>;
 
 /// Symmetric objective with the rotation split between the clouds and the normals fixed
 /// [Rusinkiewicz 2019, eq. 9]: each cloud turns half way, so the sum of normals turns by R^1/2.
@@ -101,7 +106,8 @@ struct SymmetricRotated {
 /// M is the derivative of Log(H) with respect to omega: the quotient of right Jacobians
 /// J_r(phi/2) J_r(phi)^-1 / 2 collapses to tan(theta/4). Not smooth where R turns by pi (H jumps).
 /// Depends on the choice of frames, as Symmetric does.
-struct SymmetricSplit {
+template <class Scalar>
+struct SymmetricSplitOf {
   static constexpr char kName[] = "symmetric_split";
   static constexpr char kFormula[] = "(T p - q) . R^1/2 (n_p + n_q)";
   static constexpr char kSource[] = "Rusinkiewicz 2019, fixed normals";
@@ -109,11 +115,11 @@ struct SymmetricSplit {
   static constexpr unsigned kNeeds = kSourceNormal | kTargetNormal;
   static constexpr Epsilon kEpsilon = Epsilon::kSquared;
 
-  Vec3 p_source;
-  Vec3 q_target;
-  Vec3 n_sum;
+  Vec<Scalar, 3> p_source;
+  Vec<Scalar, 3> q_target;
+  Vec<Scalar, 3> n_sum;
 
-  static SymmetricSplit From(const Correspondence& c) {
+  static SymmetricSplitOf From(const CorrespondenceOf<Scalar>& c) {
     return {c.p_source, c.q_target, c.n_source + c.n_target};
   }
 
@@ -128,24 +134,25 @@ struct SymmetricSplit {
 
   template <class S>
   Vec<S, kDim> Residual(const SE3<S>& T_target_source) const {
-    const Vec<S, 3> e = T_target_source * p_source.cast<S>() - q_target.cast<S>();
-    const Vec<S, 3> m = SquareRoot(T_target_source).toRotationMatrix() * n_sum.cast<S>();
+    const Vec<S, 3> e = T_target_source * p_source.template cast<S>() - q_target.template cast<S>();
+    const Vec<S, 3> m = SquareRoot(T_target_source).toRotationMatrix() * n_sum.template cast<S>();
     return Vec<S, kDim>(m.dot(e));
   }
 
-  Mat<double, kDim, 6> Jacobian(const SE3d& T_target_source) const {
-    const Eigen::Quaterniond h = SquareRoot(T_target_source);
-    const Mat3 H = h.toRotationMatrix();
-    const Vec3 a = T_target_source.R().transpose() * (H * n_sum);
-    const Vec3 e = T_target_source * p_source - q_target;
-    const Vec3 b = n_sum.cross(H.transpose() * e);  // (-e^T H skew(m))^T
-    const Vec3 axis = h.vec() / h.w();              // tan(theta/4) about the axis
-    const Vec3 turn = (b + b.cross(axis)) / 2;      // (b^T M)^T
-    Mat<double, kDim, 6> J;
+  Mat<Scalar, kDim, 6> Jacobian(const SE3<Scalar>& T_target_source) const {
+    const Eigen::Quaternion<Scalar> h = SquareRoot(T_target_source);
+    const Mat<Scalar, 3, 3> H = h.toRotationMatrix();
+    const Vec<Scalar, 3> a = T_target_source.R().transpose() * (H * n_sum);
+    const Vec<Scalar, 3> e = T_target_source * p_source - q_target;
+    const Vec<Scalar, 3> b = n_sum.cross(H.transpose() * e);      // (-e^T H skew(m))^T
+    const Vec<Scalar, 3> axis = h.vec() / h.w();                  // tan(theta/4) about the axis
+    const Vec<Scalar, 3> turn = (b + b.cross(axis)) / Scalar(2);  // (b^T M)^T
+    Mat<Scalar, kDim, 6> J;
     J << (p_source.cross(a) + turn).transpose(), a.transpose();
     return J;
   }
 };
+using SymmetricSplit = SymmetricSplitOf<double>;
 
 /// Both point-to-plane distances of a pair, stacked (the form that Rusinkiewicz 2019 compares
 /// with).
@@ -153,7 +160,8 @@ struct SymmetricSplit {
 ///   J    = [ n_t^T R [ -skew(p_s) | I ] ;
 ///            n_s^T [ -skew(p_s) | I ] + [ (n_s x b)^T | 0 ],  b = R^T e ]
 /// Smooth everywhere; signs of the normals are irrelevant; invariant to the choice of either frame.
-struct TwoPlane {
+template <class Scalar>
+struct TwoPlaneOf {
   static constexpr char kName[] = "two_plane";
   static constexpr char kFormula[] = "[(T p - q) . n_q ; (T p - q) . R n_p]";
   static constexpr char kSource[] = "compared with in Rusinkiewicz 2019";
@@ -161,31 +169,33 @@ struct TwoPlane {
   static constexpr unsigned kNeeds = kSourceNormal | kTargetNormal;
   static constexpr Epsilon kEpsilon = Epsilon::kSquared;
 
-  Vec3 p_source;
-  Vec3 q_target;
-  Vec3 n_source;
-  Vec3 n_target;
+  Vec<Scalar, 3> p_source;
+  Vec<Scalar, 3> q_target;
+  Vec<Scalar, 3> n_source;
+  Vec<Scalar, 3> n_target;
 
-  static TwoPlane From(const Correspondence& c) {
+  static TwoPlaneOf From(const CorrespondenceOf<Scalar>& c) {
     return {c.p_source, c.q_target, c.n_source, c.n_target};
   }
 
   template <class S>
   Vec<S, kDim> Residual(const SE3<S>& T_target_source) const {
-    const Vec<S, 3> e = T_target_source * p_source.cast<S>() - q_target.cast<S>();
-    return {n_target.cast<S>().dot(e), (T_target_source.R() * n_source.cast<S>()).dot(e)};
+    const Vec<S, 3> e = T_target_source * p_source.template cast<S>() - q_target.template cast<S>();
+    return {n_target.template cast<S>().dot(e),
+            (T_target_source.R() * n_source.template cast<S>()).dot(e)};
   }
 
-  Mat<double, kDim, 6> Jacobian(const SE3d& T_target_source) const {
-    const Mat3& R = T_target_source.R();
-    const Vec3 a = R.transpose() * n_target;
-    const Vec3 b = p_source + R.transpose() * (T_target_source.t() - q_target);  // R^T e
-    Mat<double, kDim, 6> J;
+  Mat<Scalar, kDim, 6> Jacobian(const SE3<Scalar>& T_target_source) const {
+    const Mat<Scalar, 3, 3>& R = T_target_source.R();
+    const Vec<Scalar, 3> a = R.transpose() * n_target;
+    const Vec<Scalar, 3> b = p_source + R.transpose() * (T_target_source.t() - q_target);  // R^T e
+    Mat<Scalar, kDim, 6> J;
     J.row(0) << p_source.cross(a).transpose(), a.transpose();
     J.row(1) << (p_source.cross(n_source) + n_source.cross(b)).transpose(), n_source.transpose();
     return J;
   }
 };
+using TwoPlane = TwoPlaneOf<double>;
 
 }  // namespace icpscape
 

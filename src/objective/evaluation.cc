@@ -5,6 +5,22 @@
 
 namespace icpscape {
 
+void Evaluation::Add(const BlockSums& block) {
+  int entry = 0;
+  for (int i = 0; i < 6; ++i) {
+    for (int j = i; j < 6; ++j) {
+      sums.hessian(i, j) += block.hessian[entry++];
+    }
+    sums.gradient[i] += block.gradient[i];
+    epsilon_gradient[i] += block.epsilon_gradient[i];
+  }
+  sums.cost += block.cost;
+  sums.num_correspondences += block.count;
+  sums.upward_loss |= block.upward_loss;
+  sum_squared += block.sum_squared;
+  epsilon += block.epsilon;
+}
+
 void Evaluation::Add(const Evaluation& other, double weight) {
   NormalEquations scaled = other.sums;
   scaled.Scale(weight);

@@ -3,15 +3,9 @@
 #define ICPSCAPE_SRC_OBJECTIVE_EVALUATION_H_
 
 #include "residuals/normal_equations.h"
+#include "src/objective/block_kernels.h"
 
 namespace icpscape {
-
-/// What an evaluation computes besides the values.
-enum class Derivatives {
-  kNone,      ///< Nothing: gradients and Hessian stay zero.
-  kGradient,  ///< What a landscape draws.
-  kHessian,   ///< And the Gauss-Newton Hessian: what a solver needs.
-};
 
 /// An objective's value and derivatives at one pose.
 struct Evaluation {
@@ -24,6 +18,8 @@ struct Evaluation {
   /// d epsilon / d xi, T <- T Exp([omega; v]).
   Vec6 epsilon_gradient = Vec6::Zero();
 
+  /// Adds one block's sums.
+  void Add(const BlockSums& sums);
   /// Adds weight times the other; n counts whole.
   void Add(const Evaluation& other, double weight);
 

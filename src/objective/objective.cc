@@ -9,8 +9,34 @@
 #include <utility>
 
 #include "src/objective/pass.h"
+#include "src/simd/level.h"
 
 namespace icpscape {
+namespace {
+
+struct TermsContext {
+  const ceres::LossFunction* loss;
+  Epsilon epsilon;
+};
+
+void EvaluateTerms(const void* opaque, const double squared[8], BlockTerms::Values* values) {
+  const auto* context = static_cast<const TermsContext*>(opaque);
+  for (int i = 0; i < 8; ++i) {
+    double rho[3] = {squared[i], 1, 0};
+    if (context->loss != nullptr) {
+      context->loss->Evaluate(squared[i], rho);
+    }
+    const EpsilonTerm term = EvaluateEpsilon(context->epsilon, squared[i]);
+    values->rho[i] = rho[0];
+    values->rho_slope[i] = rho[1];
+    values->rho_curvature[i] = rho[2];
+    values->epsilon[i] = term.value;
+    values->epsilon_slope[i] = term.derivative;
+  }
+}
+
+}  // namespace
+
 Objective::Objective(const std::string& metric, const Matcher& matcher,
                      std::shared_ptr<const ceres::LossFunction> loss)
     : metric_(metric),
@@ -44,17 +70,28 @@ Evaluation Objective::Evaluate(const SE3d& T_target_source, int threads) const {
   return EvaluateAll({this}, T_target_source, Derivatives::kHessian, threads).front();
 }
 
+void Objective::Add(const PairBlock& block, const SE3d& T, Derivatives derivatives,
+                    Evaluation* sums) const {
+  const TermsContext context = {loss_.get(), functions_->epsilon};
+  const BlockTerms terms = {&EvaluateTerms, &context};
+  const bool plain = loss_ == nullptr && functions_->epsilon == Epsilon::kSquared;
+  const Eigen::Matrix<double, 3, 3, Eigen::RowMajor> R = T.R();
+  BlockSums block_sums = {};
+  BlockKernelOf(functions_->place, ActiveSimdLevel())(
+      block.values(), R.data(), T.t().data(), derivatives, plain ? nullptr : &terms, &block_sums);
+  sums->Add(block_sums);
+}
+
 void Objective::AddResidualBlocks(const Matches& matches, const ceres::LossFunction* loss,
                                   double* x, ceres::Problem* problem) const {
   // Ceres takes a mutable pointer but never changes the loss; the caller sees to the ownership.
   auto* shared_loss = const_cast<ceres::LossFunction*>(loss);
   PairBlock block;
   for (std::size_t k = 0; k < matcher_->Order().size(); ++k) {
-    block.size = 0;
+    block.Clear();
     block.Add(*matcher_, matches, static_cast<std::size_t>(matcher_->Order()[k]), k, needs());
-    ceres::CostFunction* cost = block.size == 0 ? nullptr : functions_->make_cost(block, 0);
-    if (cost != nullptr) {
-      problem->AddResidualBlock(cost, shared_loss, x);
+    if (block.size() == 1 && (needs() & ~block.values().provided[0]) == 0) {
+      problem->AddResidualBlock(functions_->make_cost(block.Pair(0)), shared_loss, x);
     }
   }
 }

@@ -6,9 +6,12 @@
 #include <string>
 
 #include "src/matching/matcher.h"
+#include "src/objective/evaluation.h"
 #include "src/objective/metric_functions.h"
+#include "src/objective/pair_block.h"
 
 namespace ceres {
+class LossFunction;
 class Problem;
 }  // namespace ceres
 
@@ -42,11 +45,9 @@ class Objective {
   /// Re-associated: matched at this pose and summed. See pass.h for several objectives at once.
   Evaluation Evaluate(const SE3d& T_target_source, int threads) const;
 
-  /// Adds the sums over a block of pairs.
+  /// Adds the sums over a block of pairs; those that lack what the metric needs are left out.
   void Add(const PairBlock& block, const SE3d& T_target_source, Derivatives derivatives,
-           Evaluation* sums) const {
-    functions_->evaluate(block, T_target_source, loss_.get(), derivatives, sums);
-  }
+           Evaluation* sums) const;
 
   /// Adds one CeresCost per pair to the problem, over the seven parameters x, under the loss (null
   /// for none), which the problem must not own. The way round SquareRootCost where a loss has

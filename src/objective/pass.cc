@@ -55,11 +55,11 @@ class GroupPass {
         PairBlock::Prefetch(matcher_, matches, entry(k + kAhead));
       }
       block.Add(matcher_, matches, entry(k), k, needs_);
-      if (block.size == PairBlock::kCapacity || k + 1 == end) {
+      if (block.size() == PairBlock::kCapacity || k + 1 == end) {
         for (std::size_t m = 0; m < objectives_.size(); ++m) {
           objectives_[m]->Add(block, T_, derivatives_, &sums[m]);
         }
-        block.size = 0;
+        block.Clear();
       }
     }
   }
