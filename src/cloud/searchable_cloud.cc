@@ -4,20 +4,21 @@
 namespace icpscape {
 
 SearchableCloud::SearchableCloud(const PointCloud& cloud) : cloud_(&cloud), search_(cloud.View()) {
+  const std::vector<std::int32_t>& order = search_.Order();
   auto shared = std::make_shared<Shared>();
-  shared->packed.reserve(cloud.size());
   shared->place.assign(cloud.size(), -1);
-  for (const std::int32_t index : search_.Order()) {
-    const auto i = static_cast<std::size_t>(index);
-    shared->place[i] = static_cast<std::int32_t>(shared->packed.size());
-    PackedPoint p = {{cloud.x[i], cloud.y[i], cloud.z[i]}, {0, 0, 0}};
-    if (cloud.has_normals()) {
-      p.normal[0] = cloud.nx[i];
-      p.normal[1] = cloud.ny[i];
-      p.normal[2] = cloud.nz[i];
-    }
-    shared->packed.push_back(p);
+  for (std::size_t place = 0; place < order.size(); ++place) {
+    shared->place[static_cast<std::size_t>(order[place])] = static_cast<std::int32_t>(place);
   }
+  const auto in_order = [&](const std::vector<float>& from, std::vector<float>* to) {
+    to->resize(order.size() + kPadding);
+    for (std::size_t place = 0; place < order.size() && !from.empty(); ++place) {
+      (*to)[place] = from[static_cast<std::size_t>(order[place])];
+    }
+  };
+  in_order(cloud.nx, &shared->nx);
+  in_order(cloud.ny, &shared->ny);
+  in_order(cloud.nz, &shared->nz);
   shared_ = std::move(shared);
 }
 

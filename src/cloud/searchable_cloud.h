@@ -10,16 +10,6 @@
 
 namespace icpscape {
 
-/// A point and its normal side by side.
-struct alignas(32) PackedPoint {
-  float point[3];
-  float normal[3];  ///< (0, 0, 0) where there is none.
-
-  Vec3 Point() const { return {point[0], point[1], point[2]}; }
-  Vec3 Normal() const { return {normal[0], normal[1], normal[2]}; }
-  bool NormalIsValid() const { return normal[0] != 0 || normal[1] != 0 || normal[2] != 0; }
-};
-
 /// A cloud as matching needs it: with the search over its points. Building one costs about as much
 /// as matching a scan twice, so whoever needs it in several places makes one and hands out copies,
 /// which share it.
@@ -30,8 +20,12 @@ class SearchableCloud {
 
   const PointCloud& cloud() const { return *cloud_; }
   const NeighborSearch& search() const { return search_; }
-  /// The points in the order of search().Order(): what is near in space is near in the memory.
-  const std::vector<PackedPoint>& packed() const { return shared_->packed; }
+  /// The points and their normals in the order of search().Order(), padded: what is near in space
+  /// is near in the memory. A point without a normal has (0, 0, 0).
+  PointsView points() const { return search_.OrderedPoints(); }
+  PointsView normals() const {
+    return {shared_->nx.data(), shared_->ny.data(), shared_->nz.data(), points().size};
+  }
   /// Where in that order the point of an index is; -1 for one that is not finite.
   std::int32_t Place(std::size_t index) const { return shared_->place[index]; }
 
@@ -39,7 +33,7 @@ class SearchableCloud {
   const PointCloud* cloud_;
   NeighborSearch search_;
   struct Shared {
-    std::vector<PackedPoint> packed;
+    std::vector<float> nx, ny, nz;
     std::vector<std::int32_t> place;
   };
   std::shared_ptr<const Shared> shared_;

@@ -114,9 +114,9 @@ class KdTree::Builder {
 
   void CopyPoints() {
     const std::size_t size = points_.size();
-    tree_->x_.resize(size);
-    tree_->y_.resize(size);
-    tree_->z_.resize(size);
+    tree_->x_.resize(size + kPadding);
+    tree_->y_.resize(size + kPadding);
+    tree_->z_.resize(size + kPadding);
     tree_->index_.resize(size);
     for (std::size_t i = 0; i < size; ++i) {
       tree_->x_[i] = points_[i].coordinate[0];

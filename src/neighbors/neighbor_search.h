@@ -57,7 +57,7 @@ class NeighborSearch {
 
   /// The indices of all finite points, such that what is near in space is near in the list.
   const std::vector<std::int32_t>& Order() const;
-  /// The points in that order; valid while a copy of this object lives.
+  /// The points in that order, padded; valid while a copy of this object lives.
   PointsView OrderedPoints() const;
 
  private:

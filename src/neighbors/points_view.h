@@ -6,6 +6,9 @@
 
 namespace icpscape {
 
+/// Arrays that are read in whole vectors have so many elements more than they say.
+constexpr std::size_t kPadding = 16;
+
 /// Three arrays of equal length; the caller keeps them alive.
 struct PointsView {
   const float* x = nullptr;

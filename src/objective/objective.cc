@@ -86,12 +86,13 @@ void Objective::AddResidualBlocks(const Matches& matches, const ceres::LossFunct
                                   double* x, ceres::Problem* problem) const {
   // Ceres takes a mutable pointer but never changes the loss; the caller sees to the ownership.
   auto* shared_loss = const_cast<ceres::LossFunction*>(loss);
+  const std::vector<std::int32_t>& order = matcher_->Order();
   PairBlock block;
-  for (std::size_t k = 0; k < matcher_->Order().size(); ++k) {
-    block.Clear();
-    block.Add(*matcher_, matches, static_cast<std::size_t>(matcher_->Order()[k]), k, needs());
-    if (block.size() == 1 && (needs() & ~block.values().provided[0]) == 0) {
-      problem->AddResidualBlock(functions_->make_cost(block.Pair(0)), shared_loss, x);
+  for (std::size_t k = 0; k < order.size(); ++k) {
+    block.Fill(*matcher_, matches, k, k + 1, needs(),
+               [&](std::size_t) { return static_cast<std::size_t>(order[k]); });
+    if (const std::optional<Correspondence> pair = block.Pair(0, needs())) {
+      problem->AddResidualBlock(functions_->make_cost(*pair), shared_loss, x);
     }
   }
 }

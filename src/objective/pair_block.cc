@@ -3,8 +3,8 @@
 
 namespace icpscape {
 
-Correspondence PairBlock::Pair(std::size_t i) const {
-  const auto at = [i](const double values[3][kBlockPairs]) {
+std::optional<Correspondence> PairBlock::Pair(std::size_t i, unsigned needs) const {
+  const auto at = [i](const auto& values) {
     return Vec3(values[0][i], values[1][i], values[2][i]);
   };
   Correspondence c;
@@ -15,7 +15,9 @@ Correspondence PairBlock::Pair(std::size_t i) const {
   c.a_line = c.q_patch = at(values_.anchor);
   c.d_line = c.n_patch = at(values_.direction);
   c.area_patch = values_.area_patch;
-  return c;
+  const bool lacks_normal = ((needs & kSourceNormal) != 0 && c.n_source.isZero(0)) ||
+                            ((needs & kTargetNormal) != 0 && c.n_target.isZero(0));
+  return values_.matched[i] != 0 && !lacks_normal ? std::optional(c) : std::nullopt;
 }
 
 }  // namespace icpscape

@@ -48,18 +48,11 @@ class GroupPass {
     const auto entry = [&](std::size_t k) {
       return in_order ? k - begin : static_cast<std::size_t>(matcher_.Order()[k]);
     };
-    constexpr std::size_t kAhead = 32;
     PairBlock block;
-    for (std::size_t k = begin; k < end; ++k) {
-      if (k + kAhead < end) {
-        PairBlock::Prefetch(matcher_, matches, entry(k + kAhead));
-      }
-      block.Add(matcher_, matches, entry(k), k, needs_);
-      if (block.size() == PairBlock::kCapacity || k + 1 == end) {
-        for (std::size_t m = 0; m < objectives_.size(); ++m) {
-          objectives_[m]->Add(block, T_, derivatives_, &sums[m]);
-        }
-        block.Clear();
+    for (std::size_t k = begin; k < end; k += PairBlock::kCapacity) {
+      block.Fill(matcher_, matches, k, std::min(end, k + PairBlock::kCapacity), needs_, entry);
+      for (std::size_t m = 0; m < objectives_.size(); ++m) {
+        objectives_[m]->Add(block, T_, derivatives_, &sums[m]);
       }
     }
   }

@@ -34,6 +34,16 @@ class Lanes {
     }
     return lanes;
   }
+  static Lanes Load(const float* from) {
+    typedef float HalfV __attribute__((vector_size(4 * kDoubles)));
+    Lanes lanes;
+    for (int i = 0; i < kVectors; ++i) {
+      HalfV v;
+      __builtin_memcpy(&v, from + i * kDoubles, sizeof v);
+      lanes.vectors_[i] = __builtin_convertvector(v, DoubleV);
+    }
+    return lanes;
+  }
   void StoreTo(double* to) const {
     for (int i = 0; i < kVectors; ++i) {
       Store(vectors_[i], to + i * kDoubles);
@@ -83,6 +93,16 @@ class Lanes {
   }
   friend Lanes InverseOrZero(const Lanes& a) {
     return Map(a, a, [](DoubleV x, DoubleV) { return x > 0.0 ? 1.0 / x : DoubleV{}; });
+  }
+
+  /// 1 where x, y or z is not zero, else 0.
+  friend Lanes IsNotZero(const Lanes& x, const Lanes& y, const Lanes& z) {
+    Lanes result;
+    for (int i = 0; i < kVectors; ++i) {
+      const LongV any = (x.vectors_[i] != 0.0) | (y.vectors_[i] != 0.0) | (z.vectors_[i] != 0.0);
+      result.vectors_[i] = any ? Splat(1.0) : DoubleV{};
+    }
+    return result;
   }
 
   // One branch is taken for all lanes. That is right for what depends on the pose alone; a metric
