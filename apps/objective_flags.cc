@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "apps/app.h"
+#include "apps/pair_flags.h"
 #include "src/common/text.h"
 #include "src/objective/loss.h"
 
@@ -153,6 +154,7 @@ ObjectiveSetOptions ObjectiveSetFromFlags() {
       AtLeastZero("fit_max_neighbor_distance_m", FLAGS_fit_max_neighbor_distance_m);
   options.line.triangle_leg_m = FLAGS_patch_leg_m;
   options.patch = options.line;
+  options.threads = ThreadsFromFlags();
   return options;
 }
 

@@ -15,7 +15,7 @@ namespace {
 template <class Use>
 void ForEachNeighborhoods(const PointCloud& cloud, const NeighborhoodOptions& options, int threads,
                           const Use& use) {
-  const NeighborSearch search(cloud.View());
+  const NeighborSearch search(cloud.View(), threads);
   ForEachPart(search.Order().size(), threads, [&](std::size_t begin, std::size_t end) {
     thread_local Neighborhoods neighborhoods;
     const PointsView queries = search.OrderedPoints().Slice(begin, end);

@@ -3,7 +3,8 @@
 
 namespace icpscape {
 
-SearchableCloud::SearchableCloud(const PointCloud& cloud) : cloud_(&cloud), search_(cloud.View()) {
+SearchableCloud::SearchableCloud(const PointCloud& cloud, int threads)
+    : cloud_(&cloud), search_(cloud.View(), threads) {
   const std::vector<std::int32_t>& order = search_.Order();
   auto shared = std::make_shared<Shared>();
   shared->place.assign(cloud.size(), -1);

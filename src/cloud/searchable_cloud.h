@@ -15,8 +15,9 @@ namespace icpscape {
 /// which share it.
 class SearchableCloud {
  public:
-  /// Not explicit: a cloud is searchable. It must outlive this object and its copies, unchanged.
-  SearchableCloud(const PointCloud& cloud);  // NOLINT(google-explicit-constructor)
+  /// Not explicit: a cloud is searchable; more threads only shorten the building. It must outlive
+  /// this object and its copies, unchanged.
+  SearchableCloud(const PointCloud& cloud, int threads = 1);  // NOLINT(google-explicit-constructor)
 
   const PointCloud& cloud() const { return *cloud_; }
   const NeighborSearch& search() const { return search_; }

@@ -95,7 +95,7 @@ void AlongRings(const PointCloud& cloud, const SmoothnessOptions& options, int t
 
 void AmongNeighbors(const PointCloud& cloud, const SmoothnessOptions& options, int threads,
                     std::vector<double>* smoothness) {
-  const NeighborSearch search(cloud.View());
+  const NeighborSearch search(cloud.View(), threads);
   const bool by_count = options.neighborhood == SmoothnessNeighborhood::kKNearest;
   const auto wanted = static_cast<std::size_t>(by_count ? options.num_neighbors : 1);
   const std::vector<std::int32_t>& order = search.Order();

@@ -8,7 +8,7 @@ namespace icpscape {
 
 GroundTruthCheck CheckGroundTruth(const PointCloud& source, const PointCloud& target,
                                   const SE3d& T_ground_truth, int threads) {
-  const ClosestPointMatcher matcher(source, target, {kGroundTruthCheckGateM});
+  const ClosestPointMatcher matcher({source, threads}, {target, threads}, {kGroundTruthCheckGateM});
   const Objective objective("point_to_plane", matcher);
   MinimizerOptions options;
   options.threads = threads;

@@ -7,6 +7,7 @@
 #include <string>
 
 #include "src/common/error.h"
+#include "src/common/parallel.h"
 
 namespace icpscape {
 namespace {
@@ -49,63 +50,63 @@ class KdTree::Builder {
  public:
   Builder(std::vector<Point> points, KdTree* tree) : points_(std::move(points)), tree_(tree) {}
 
-  void Build() {
-    const std::size_t leaves = points_.size() / kLeafPoints + 1;
-    tree_->nodes_.reserve(leaves);
-    tree_->leaves_.reserve(leaves);
-    const Box box = BoxOf(points_.data(), points_.data() + points_.size());
-    if (IsLeaf(0, points_.size(), box)) {
+  void Build(int threads) {
+    const std::size_t size = points_.size();
+    const std::size_t leaves = size / kLeafPoints + 2;  // With an empty one at the end.
+    tree_->nodes_.resize(leaves);
+    tree_->leaves_.resize(leaves);
+    const Box box = BoxOf(points_.data(), points_.data() + size);
+    std::int32_t root = AddSubtree(0, size, box, threads);
+    if (root < 0) {
       // The root is a node even so: with one child, and one that nothing is near to.
-      tree_->nodes_.emplace_back();
-      SetChild(0, 0, box, AddLeaf(0, points_.size()));
-      SetChild(0, 1, kEmptyBox, AddLeaf(points_.size(), points_.size()));
-    } else {
-      AddNode(0, points_.size(), box);
+      SetChild(0, 0, box, root);
+      SetChild(0, 1, kEmptyBox, ~static_cast<std::int32_t>(leaves - 1));
+      root = 0;
     }
+    tree_->root_ = root;
     CopyPoints();
   }
 
  private:
-  static bool IsLeaf(std::size_t begin, std::size_t end, const Box& box) {
-    return end - begin <= kLeafPoints || std::equal(box.low, box.low + 3, box.high);
+  std::int32_t AddSubtree(std::size_t begin, std::size_t end, const Box& box, int threads) {
+    const bool is_leaf = end - begin <= kLeafPoints || std::equal(box.low, box.low + 3, box.high);
+    return is_leaf ? AddLeaf(begin, end) : AddNode(begin, end, box, threads);
   }
 
   std::int32_t AddLeaf(std::size_t begin, std::size_t end) {
     std::sort(points_.data() + begin, points_.data() + end,
               [](const Point& a, const Point& b) { return a.index < b.index; });
-    tree_->leaves_.push_back(
-        {static_cast<std::int32_t>(begin), static_cast<std::int32_t>(end - begin)});
-    return ~static_cast<std::int32_t>(tree_->leaves_.size() - 1);
+    const std::size_t leaf = begin / kLeafPoints;
+    tree_->leaves_[leaf] = {static_cast<std::int32_t>(begin),
+                            static_cast<std::int32_t>(end - begin)};
+    return ~static_cast<std::int32_t>(leaf);
   }
 
-  std::int32_t AddNode(std::size_t begin, std::size_t end, const Box& box) {
+  std::int32_t AddNode(std::size_t begin, std::size_t end, const Box& box, int threads) {
     int axis = 0;
     for (int other = 1; other < 3; ++other) {
       if (box.high[other] - box.low[other] > box.high[axis] - box.low[axis]) {
         axis = other;
       }
     }
-    // Whole leaves to the left, so that nearly all of them are full.
+    // Whole leaves to the left, so that only the last one of all is not full.
     const std::size_t half = (end - begin + 1) / 2;
     const std::size_t middle = begin + (half + kLeafPoints - 1) / kLeafPoints * kLeafPoints;
     Point* const points = points_.data();
     (axis == 0   ? SplitAlong<0>
      : axis == 1 ? SplitAlong<1>
                  : SplitAlong<2>)(points + begin, points + middle, points + end);
-    const std::size_t node = tree_->nodes_.size();
-    tree_->nodes_.emplace_back();
-    AddChild(node, 0, begin, middle);
-    AddChild(node, 1, middle, end);
+    const std::size_t node = middle / kLeafPoints;
+    ParallelFor(2, std::min(threads, 2), [&](std::size_t side) {
+      const std::size_t from = side == 0 ? begin : middle;
+      const std::size_t to = side == 0 ? middle : end;
+      const Box child_box = BoxOf(points + from, points + to);
+      SetChild(node, side, child_box, AddSubtree(from, to, child_box, threads / 2));
+    });
     return static_cast<std::int32_t>(node);
   }
 
-  void AddChild(std::size_t node, int side, std::size_t begin, std::size_t end) {
-    const Box box = BoxOf(points_.data() + begin, points_.data() + end);
-    SetChild(node, side, box,
-             IsLeaf(begin, end, box) ? AddLeaf(begin, end) : AddNode(begin, end, box));
-  }
-
-  void SetChild(std::size_t node, int side, const Box& box, std::int32_t child) {
+  void SetChild(std::size_t node, std::size_t side, const Box& box, std::int32_t child) {
     KdTreeNode& parent = tree_->nodes_[node];
     std::copy(box.low, box.low + 3, parent.low[side]);
     std::copy(box.high, box.high + 3, parent.high[side]);
@@ -130,7 +131,7 @@ class KdTree::Builder {
   KdTree* tree_;
 };
 
-KdTree::KdTree(const PointsView& points) {
+KdTree::KdTree(const PointsView& points, int threads) {
   if (points.size > static_cast<std::size_t>(std::numeric_limits<std::int32_t>::max())) {
     throw InputError("a cloud of " + std::to_string(points.size) +
                      " points: expected at most 2147483647.");
@@ -143,11 +144,12 @@ KdTree::KdTree(const PointsView& points) {
       finite.push_back(point);
     }
   }
-  Builder(std::move(finite), this).Build();
+  Builder(std::move(finite), this).Build(threads);
 }
 
 KdTreeView KdTree::View() const {
   return {nodes_.data(),
+          root_,
           leaves_.data(),
           x_.data(),
           y_.data(),

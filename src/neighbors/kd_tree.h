@@ -13,7 +13,8 @@ namespace icpscape {
 /// points allow, points copied leaf by leaf. Points with a NaN or an infinity are left out.
 class KdTree {
  public:
-  explicit KdTree(const PointsView& points);
+  /// The tree does not depend on `threads`.
+  KdTree(const PointsView& points, int threads);
 
   /// Valid while the tree lives.
   KdTreeView View() const;
@@ -24,7 +25,10 @@ class KdTree {
  private:
   class Builder;
 
+  // Leaf k holds the points from place k * kLeafPoints on, and node k is the one that splits there:
+  // every subtree knows its place before its neighbours are built.
   std::vector<KdTreeNode> nodes_;
+  std::int32_t root_ = 0;
   std::vector<KdTreeLeaf> leaves_;
   std::vector<float> x_, y_, z_;
   std::vector<std::int32_t> index_;

@@ -24,7 +24,8 @@ struct KdTreeLeaf {
 
 /// Plain pointers into a KdTree: what the kernels see.
 struct KdTreeView {
-  const KdTreeNode* nodes;  ///< The first is the root.
+  const KdTreeNode* nodes;
+  std::int32_t root;
   const KdTreeLeaf* leaves;
   const float *x, *y, *z;     ///< Points, leaf by leaf.
   const std::int32_t* index;  ///< And which points of the cloud they are.

@@ -57,8 +57,8 @@ MomentsView View(Neighborhoods* n) {
 }  // namespace
 
 struct NeighborSearch::Impl {
-  explicit Impl(const PointsView& points)
-      : tree(points), kernels(SearchKernelsAt(ActiveSimdLevel())) {}
+  Impl(const PointsView& points, int threads)
+      : tree(points, threads), kernels(SearchKernelsAt(ActiveSimdLevel())) {}
 
   void Moments(const PointsView& queries, int k, float limit, Neighborhoods* out) const {
     const KdTreeView view = tree.View();
@@ -72,8 +72,8 @@ struct NeighborSearch::Impl {
   const SearchKernels& kernels;
 };
 
-NeighborSearch::NeighborSearch(const PointsView& points)
-    : impl_(std::make_shared<const Impl>(points)) {}
+NeighborSearch::NeighborSearch(const PointsView& points, int threads)
+    : impl_(std::make_shared<const Impl>(points, threads)) {}
 
 const std::vector<std::int32_t>& NeighborSearch::Order() const { return impl_->tree.index(); }
 

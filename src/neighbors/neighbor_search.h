@@ -30,7 +30,8 @@ struct Neighbor {
 /// lie close together, as points do in the Order() of their own search. See README.md.
 class NeighborSearch {
  public:
-  explicit NeighborSearch(const PointsView& points);
+  /// Results do not depend on `threads`, which only shortens the building.
+  explicit NeighborSearch(const PointsView& points, int threads = 1);
 
   /// The nearest point; index -1 where there is none within max_squared_distance (inclusive).
   Neighbor Nearest(const Eigen::Vector3f& query, float max_squared_distance) const;

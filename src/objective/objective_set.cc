@@ -9,11 +9,12 @@ bool NeedsFeatures(const std::string& metric) {
   return (MetricFunctionsOf(metric).needs & (kTargetLine | kTargetPatch)) != 0;
 }
 
-ObjectiveSet::ObjectiveSet(const PointCloud& source, const SearchableCloud& target,
+ObjectiveSet::ObjectiveSet(const PointCloud& source, const PointCloud& target,
                            const Features& features, const std::vector<std::string>& metrics,
                            const ObjectiveSetOptions& options) {
+  const SearchableCloud searchable_target(target, options.threads);
   for (const std::string& metric : metrics) {
-    const Matcher& matcher = MatcherFor(metric, source, target, features, options);
+    const Matcher& matcher = MatcherFor(metric, source, searchable_target, features, options);
     if (matcher.source().empty()) {
       throw ComputationError(metric + ": no source point is left for it; expected at least one.");
     }
@@ -42,7 +43,8 @@ const Matcher& ObjectiveSet::MatcherFor(const std::string& metric, const PointCl
     return *patches_;
   }
   if (!points_) {
-    points_ = std::make_unique<ClosestPointMatcher>(source, target, options.matching);
+    points_ = std::make_unique<ClosestPointMatcher>(SearchableCloud(source, options.threads),
+                                                    target, options.matching);
   }
   return *points_;
 }

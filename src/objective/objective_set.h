@@ -22,17 +22,18 @@ struct ObjectiveSetOptions {
   LocalFitOptions line;      ///< Edge metrics.
   LocalFitOptions patch;     ///< Planar metrics.
   std::shared_ptr<const ceres::LossFunction> loss;
+  int threads = 1;  ///< To build the searches; results do not depend on it.
 };
 
 /// The objectives of several metrics over one pair of scans, with the matchers that they need:
 /// closest points for all source points, lines for its edge points and patches for its planar ones.
-/// Metrics of a kind share a matcher.
+/// Metrics of a kind share a matcher, and all matchers the search over the target.
 class ObjectiveSet {
  public:
   /// The clouds must outlive the set, and have normals where a metric needs them; `features` are
   /// the source's, and may be empty where no metric needs them. Throws UsageError for unknown
   /// metrics, ComputationError where a metric has no source point.
-  ObjectiveSet(const PointCloud& source, const SearchableCloud& target, const Features& features,
+  ObjectiveSet(const PointCloud& source, const PointCloud& target, const Features& features,
                const std::vector<std::string>& metrics, const ObjectiveSetOptions& options);
 
   const std::vector<Objective>& objectives() const { return objectives_; }

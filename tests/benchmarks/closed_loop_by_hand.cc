@@ -86,7 +86,7 @@ Vec6 GaussNewtonStep(const Sums& sums) {
 LoopResult RegisterByHand(const PointCloud& source, const PointCloud& target, int threads) {
   MatchingOptions matching;
   matching.max_distance_m = kLoopGateM;
-  const ClosestPointMatcher matcher(source, target, matching);
+  const ClosestPointMatcher matcher({source, threads}, {target, threads}, matching);
   LoopResult result;
   Matches matches;
   for (;;) {

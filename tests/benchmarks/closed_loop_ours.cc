@@ -9,7 +9,7 @@ namespace icpscape {
 LoopResult RegisterOurs(const PointCloud& source, const PointCloud& target, int threads) {
   MatchingOptions matching;
   matching.max_distance_m = kLoopGateM;
-  const ClosestPointMatcher matcher(source, target, matching);
+  const ClosestPointMatcher matcher({source, threads}, {target, threads}, matching);
   const Objective objective("point_to_plane", matcher);
   MinimizerOptions options;
   options.max_iterations = kLoopMaxIterations;
