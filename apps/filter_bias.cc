@@ -17,6 +17,7 @@
 #include "src/io/output.h"
 #include "src/simulation/surface.h"
 
+DECLARE_double(voxel_m);
 DEFINE_double(octree_voxel_m, 0.1, "Voxels of the Octree Correspondence Filter (m).");
 DEFINE_double(translation_range_m, 0.3, "Errors of T_e along the path, to either side (m).");
 DEFINE_double(yaw_range_deg, 0.5, "Errors of T_e in yaw, to either side (degrees).");
@@ -108,13 +109,16 @@ void ReportRemoval(const ScanPair& pair, Manifest* manifest) {
 }
 
 void FilterBias() {
-  CheckPairFlags(true);
+  const std::vector<std::string> metrics = MetricsFromFlags();
+  CheckPairFlags(metrics, true);
   for (const char* flag : {"loss", "initial"}) {
     const gflags::CommandLineFlagInfo info = gflags::GetCommandLineFlagInfoOrDie(flag);
     RequireFlag(info.current_value == info.default_value, flag, info.current_value,
                 "its default, since the paper's RMSE along the path knows neither loss nor start");
   }
-  const std::vector<std::string> metrics = MetricsFromFlags();
+  RequireFlag(FLAGS_voxel_m == 0, "voxel_m", Number(FLAGS_voxel_m),
+              "0, since the filter's removal is counted on labelled points, and centroids have no "
+              "labels");
   FeaturesFromFlags();
   ObjectiveSetFromFlags();
   RequireFlag(FLAGS_octree_voxel_m > 0, "octree_voxel_m", Number(FLAGS_octree_voxel_m),

@@ -71,9 +71,8 @@ void PrintMinima(const std::vector<Curve>& curves, double motion_m, Manifest* ma
 }
 
 void CheckFlags(const CurveOptions& options) {
-  CheckPairFlags(true);
+  CheckPairFlags(MetricsFromFlags(), true);
   CheckFilterFlags();
-  MetricsFromFlags();
   FeaturesFromFlags();
   ObjectiveSetFromFlags();
   options.Check();
@@ -98,6 +97,7 @@ std::string ChangedFlags() {
                            "reverse",
                            "column",
                            "patch_offset",
+                           "voxel_m",
                            "artificial_blind_spot_m",
                            "ego_filter_m",
                            "octree_voxel_m",

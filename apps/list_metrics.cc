@@ -45,6 +45,7 @@ struct Variant {
   const char* source;
 };
 constexpr Variant kVariants[] = {
+    {"data filtering", "voxel grid", "--voxel_m", "not in the paper"},
     {"data filtering", "artificial blind spot", "--artificial_blind_spot_m", "paper sec. 4.2"},
     {"data filtering", "ego blind spot (ego overlap) filter", "--ego_filter_m", "paper sec. 2.6"},
     {"data filtering", "Octree Correspondence Filter", "--octree_voxel_m", "paper sec. 2.7"},

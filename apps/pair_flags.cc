@@ -3,6 +3,7 @@
 
 #include <gflags/gflags.h>
 
+#include <algorithm>
 #include <cmath>
 #include <cstdio>
 #include <iostream>
@@ -17,6 +18,7 @@
 #include "src/common/error.h"
 #include "src/common/parallel.h"
 #include "src/common/text.h"
+#include "src/filtering/voxel_filter.h"
 #include "src/io/kitti.h"
 #include "src/io/output.h"
 #include "src/io/point_files.h"
@@ -36,6 +38,10 @@ DEFINE_string(target, "", "Target cloud, with --source.");
 DEFINE_string(ground_truth, "", "Text file of the true 4x4 T_target_source, with --source.");
 DEFINE_double(elevation_correction_deg, 0,
               "Turn KITTI's points up by this angle (degrees); 0.205 is in use for the HDL-64.");
+DEFINE_double(
+    voxel_m, 0,
+    "If positive: take the centroids of the points in voxels of this size (m) as the scans, "
+    "before normals and filters; not with metrics of edge and planar points.");
 DEFINE_int32(normal_neighbors, 20, "Neighbours of a normal, the point itself included.");
 DEFINE_double(normal_radius_m, 0, "If positive: all points within this radius instead (m).");
 DEFINE_bool(reverse, false, "Swap source and target, and invert what is known about their motion.");
@@ -136,6 +142,19 @@ SE3d InitialPose(const ScanPair& pair, Manifest* manifest) {
   return ReadTransform(FLAGS_initial);
 }
 
+void ThinByVoxels(ScanPair* pair, Manifest* manifest) {
+  for (const auto& [role, cloud] :
+       {std::pair("source", &pair->source), std::pair("target", &pair->target)}) {
+    const std::size_t before = cloud->size();
+    *cloud = VoxelFilter(*cloud, FLAGS_voxel_m);
+    std::cout << "voxel_filter: leaves " << cloud->size() << " of the " << role << "'s " << before
+              << " points\n";
+    manifest->SetResult(std::string("voxel_filter_") + role + "_points",
+                        static_cast<double>(cloud->size()));
+  }
+  manifest->AddTiming("voxel_filter");
+}
+
 // Before any filter: a scan line with holes has other neighbours.
 void AddFeatures(ScanPair* pair, Manifest* manifest) {
   const FeatureOptions options = FeaturesFromFlags();
@@ -162,7 +181,7 @@ void AddNormals(const std::string& role, PointCloud* cloud) {
 
 }  // namespace
 
-void CheckPairFlags(bool needs_ground_truth) {
+void CheckPairFlags(const std::vector<std::string>& metrics, bool needs_ground_truth) {
   if (FromScene()) {
     if (FromKitti() || !FLAGS_source.empty() || !FLAGS_target.empty() ||
         !FLAGS_ground_truth.empty()) {
@@ -207,6 +226,12 @@ void CheckPairFlags(bool needs_ground_truth) {
               Number(FLAGS_normal_radius_m), "a length in metres, or 0");
   RequireFlag(std::abs(FLAGS_elevation_correction_deg) <= 5, "elevation_correction_deg",
               Number(FLAGS_elevation_correction_deg), "an angle within 5 degrees");
+  RequireFlag(FLAGS_voxel_m >= 0 && std::isfinite(FLAGS_voxel_m), "voxel_m", Number(FLAGS_voxel_m),
+              "a length in m, or 0");
+  const auto of_features = std::find_if(metrics.begin(), metrics.end(), NeedsFeatures);
+  RequireFlag(FLAGS_voxel_m == 0 || of_features == metrics.end(), "voxel_m", Number(FLAGS_voxel_m),
+              "0 with " + (of_features == metrics.end() ? "" : *of_features) +
+                  ", whose edge and planar points are those of whole scan lines");
   RequireFlag(FLAGS_threads >= 0 && FLAGS_threads <= 1024, "threads", std::to_string(FLAGS_threads),
               "0 (all) to 1024");
 }
@@ -240,6 +265,9 @@ ScanPair LoadPair(const std::vector<std::string>& metrics, Manifest* manifest) {
   CorrectElevation(FLAGS_elevation_correction_deg, &pair.source);
   CorrectElevation(FLAGS_elevation_correction_deg, &pair.target);
   manifest->AddTiming("read");
+  if (FLAGS_voxel_m > 0) {
+    ThinByVoxels(&pair, manifest);
+  }
   // The ground-truth check is point-to-plane.
   unsigned needs = pair.T_ground_truth ? static_cast<unsigned>(kTargetNormal) : 0U;
   if (ObjectiveSetFromFlags().matching.max_normal_angle_rad > 0) {

@@ -29,13 +29,14 @@ struct ScanPair {
   void KeepSource(const std::vector<char>& keep);
 };
 
-/// Refuses what can be seen to be wrong before any file is read, also where a ground truth is
-/// needed and the input has none. Throws UsageError.
-void CheckPairFlags(bool needs_ground_truth);
+/// Refuses what can be seen to be wrong before any file is read, also where one of the metrics
+/// cannot be had of voxels, or a ground truth is needed and the input has none. Throws UsageError.
+void CheckPairFlags(const std::vector<std::string>& metrics, bool needs_ground_truth);
 
 /// Simulates the pair of --scene --seed, or reads that of --kitti_root --sequence --frame or of
-/// --source --target --ground_truth; estimates normals and extracts features where one of the
-/// metrics needs them, prints what was read and dropped, and records inputs and timings.
+/// --source --target --ground_truth; takes centroids for points under --voxel_m; estimates normals
+/// and extracts features where one of the metrics needs them, prints what was read and dropped, and
+/// records inputs and timings.
 ScanPair LoadPair(const std::vector<std::string>& metrics, Manifest* manifest);
 
 /// Checks the pair's ground truth, prints how far point-to-plane moves from it and records that. A

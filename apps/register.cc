@@ -157,7 +157,7 @@ JointObjective JointFromFlags(const ObjectiveSet& set) {
 }
 
 void CheckFlags() {
-  CheckPairFlags(FLAGS_starts > 0);
+  CheckPairFlags(MetricsFromFlags(), FLAGS_starts > 0);
   CheckFilterFlags();
   FeaturesFromFlags();
   ObjectiveSetFromFlags();

@@ -190,6 +190,39 @@ TEST_F(Apps, FiltersAndFeaturesOfAScene) {
   EXPECT_EQ(ReadCsv(Path("out/curves.csv")).size(), 16U);
 }
 
+TEST_F(Apps, VoxelCentroidsFindTheMotion) {
+  const Outcome outcome =
+      RunProgram("register", {"--scene=right_turn", "--voxel_m=0.25", "--out=" + Path("out")});
+  ASSERT_EQ(outcome.code, 0) << outcome.err;
+  const std::string says = "off the ground truth: ";
+  ASSERT_THAT(outcome.out, HasSubstr(says));
+  std::istringstream off(outcome.out.substr(outcome.out.find(says) + says.size()));
+  double off_m = 1, off_deg = 1;
+  std::string unit;
+  off >> off_m >> unit >> off_deg;
+  EXPECT_LT(off_m, 0.02);
+  EXPECT_LT(off_deg, 0.1);
+  const auto manifest = nlohmann::json::parse(ReadFile(Path("out/manifest.json")));
+  const std::size_t points = manifest["results"]["source_points"];
+  const std::size_t centroids = manifest["results"]["voxel_filter_source_points"];
+  EXPECT_GT(points, 100000U);
+  EXPECT_LT(centroids, points / 3);
+  EXPECT_THAT(outcome.out, HasSubstr("voxel_filter: leaves " + std::to_string(centroids) +
+                                     " of the source's " + std::to_string(points) + " points"));
+  EXPECT_TRUE(manifest["results"].contains("voxel_filter_target_points"));
+  DroppedPoints dropped;
+  EXPECT_EQ(ReadPointFile(Path("out/aligned.ply"), &dropped).size(), centroids);
+}
+
+TEST_F(Apps, VoxelsComeBeforeFiltersAndIntoTheTitle) {
+  const Outcome outcome =
+      RunProgram("landscape", {"--scene=highway_overtaking", "--samples=2", "--azimuth_step_deg=1",
+                               "--voxel_m=0.5", "--octree_voxel_m=0.5", "--out=" + Path("out")});
+  ASSERT_EQ(outcome.code, 0) << outcome.err;
+  EXPECT_LT(outcome.out.find("voxel_filter: leaves"), outcome.out.find("octree_filter: keeps"));
+  EXPECT_THAT(ReadFile(Path("out/landscape.svg")), HasSubstr("-voxel_m=0.5"));
+}
+
 TEST_F(Apps, GroundTruthCheckWithoutAnAnswerIsNoFailure) {
   PointCloud sparse;  // No pair within the check's gate.
   for (int i = 0; i < 100; ++i) {

@@ -67,6 +67,16 @@ TEST_F(BadInput, WrongCommandLines) {
   ExpectRefusal(RunProgram("filter_bias", Files({"--loss=cauchy"})), 1, "--loss=cauchy");
   ExpectRefusal(RunProgram("register", Files({"--reassociation=never"})), 1, "every_step");
   ExpectRefusal(RunProgram("register", Files({"--max_iterations=0"})), 1, "--max_iterations");
+  ExpectRefusal(RunProgram("landscape", Files({"--voxel_m=-1"})), 1, "a length in m, or 0");
+  ExpectRefusal(RunProgram("register", Files({"--voxel_m=inf"})), 1, "a length in m, or 0");
+  const std::vector<std::string> no_files = {"--source=no.ply", "--target=no.ply",
+                                             "--ground_truth=no.txt", "--voxel_m=0.25"};
+  for (const char* app : {"landscape", "register", "filter_bias"}) {
+    auto features = no_files;
+    features.push_back("--metrics=point_to_point,planar_to_patch");
+    ExpectRefusal(RunProgram(app, features), 1, "--voxel_m=0.25: expected 0 with planar_to_patch");
+  }
+  ExpectRefusal(RunProgram("filter_bias", no_files), 1, "centroids have no labels");
   auto no_truth = Files({"--starts=5"});
   no_truth.erase(no_truth.begin() + 2);
   EXPECT_EQ(RunProgram("register", no_truth).code, 1);
@@ -98,6 +108,9 @@ TEST_F(BadInput, BrokenData) {
   folder_.Write(scan, whole);
   folder_.Write("kitti/sequences/00/calib.txt", "P0: 1 0 0 0 0 1 0 0 0 0 1 0\n");
   ExpectRefusal(RunProgram("landscape", Kitti()), 2, "no line begins with \"Tr:\"");
+  folder_.Write("kitti/sequences/00/calib.txt", "Tr: 1 0 0 0 0 1 0 0 0 0 1 0\n");
+  ExpectRefusal(RunProgram("landscape", Kitti({"--voxel_m=1e-9"})), 2,
+                "within 2^20 voxels of 1e-09");
   EXPECT_FALSE(std::filesystem::exists(Path("out/curves.csv")));
 }
 
