@@ -2,14 +2,12 @@
 #include <cmath>
 #include <memory>
 
+#include "src/filtering/voxel_filter.h"
 #include "tests/benchmarks/check.h"
 #include "tests/benchmarks/comparison.h"
 #include "tests/benchmarks/open3d_peer.h"
 #include "tests/benchmarks/pcl_peer.h"
 #include "tests/benchmarks/rows.h"
-
-#ifdef ICPSCAPE_VOXEL_FILTER  // Until there is one.
-#include "src/filtering/voxel_filter.h"
 
 namespace icpscape {
 
@@ -47,11 +45,3 @@ void RegisterVoxelFilter(const ScanPair& pair, int rounds) {
 }
 
 }  // namespace icpscape
-
-#else
-
-namespace icpscape {
-void RegisterVoxelFilter(const ScanPair& /*pair*/, int /*rounds*/) {}
-}  // namespace icpscape
-
-#endif
