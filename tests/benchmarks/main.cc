@@ -29,9 +29,10 @@ void AddContext(const ScanPair& pair) {
 }
 
 int Run() {
-  CheckPairFlags(true);
+  const std::vector<std::string> metrics = {"symmetric", "edge_to_line", "planar_to_patch"};
+  CheckPairFlags(metrics, true);
   Manifest manifest("benchmarks");
-  const ScanPair pair = LoadPair({"symmetric", "edge_to_line", "planar_to_patch"}, &manifest);
+  const ScanPair pair = LoadPair(metrics, &manifest);
   AddContext(pair);
   RegisterNeighborSearch(pair, FLAGS_rounds);
   RegisterNormals(pair, FLAGS_rounds);

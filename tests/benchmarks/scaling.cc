@@ -91,7 +91,7 @@ void AddAll(const ScanPair& pair) {
 }
 
 void Run() {
-  CheckPairFlags(true);
+  CheckPairFlags({"symmetric"}, true);
   PosesFromFlags();
   Manifest manifest("scaling");
   const ScanPair pair = LoadPair({"symmetric"}, &manifest);
