@@ -93,6 +93,33 @@ TEST_P(BothModes, RecordsStepsAndPasses) {
   EXPECT_GE(summary.matching_passes, static_cast<int>(summary.iterates.size()));
 }
 
+// Gauss-Newton as one writes it by hand, on the same objective: as many matching passes, and the
+// same pose up to the step that neither takes.
+TEST(Minimizer, NeedsNoMoreMatchingPassesThanGaussNewtonByHand) {
+  const ClosestPointMatcher matcher(Room().source, Room().target);
+  for (const char* metric : {"point_to_plane", "symmetric"}) {
+    const Objective objective(metric, matcher);
+    const MinimizerOptions options;
+    SE3d T;
+    int passes = 0;
+    for (;;) {
+      const Evaluation evaluation = objective.Evaluate(T, 1);
+      ++passes;
+      const SE3d step =
+          SE3d::Exp(-evaluation.sums.Hessian().ldlt().solve(evaluation.sums.gradient));
+      if (step.t().norm() < options.min_step_m &&
+          step.LogRotation().norm() < options.min_step_rad) {
+        break;
+      }
+      T = T * step;
+    }
+    const MinimizerSummary summary = Minimize(objective, SE3d(), options);
+    EXPECT_EQ(summary.termination, Termination::kConverged);
+    EXPECT_LE(summary.matching_passes, passes) << metric;
+    EXPECT_LT(DistanceM(T, summary.T_target_source()), options.min_step_m);
+  }
+}
+
 TEST_P(BothModes, StopsAtTheLimitOfIterations) {
   const ClosestPointMatcher matcher(Room().source, Room().target);
   const Objective objective("point_to_point", matcher);

@@ -246,6 +246,14 @@ TEST_P(NeighborSearchAt, OrderIsAPermutationAndItsPointsFollow) {
   }
 }
 
+TEST_P(NeighborSearchAt, TheTreeIsTheSameForAnyThreads) {
+  const PointCloud cloud = Uniform(5000, 8);
+  const NeighborSearch one(cloud.View());
+  for (const int threads : {2, 3, 4}) {
+    EXPECT_EQ(NeighborSearch(cloud.View(), threads).Order(), one.Order());
+  }
+}
+
 TEST_P(NeighborSearchAt, EqualsBruteForceOnARealScan) {
   ICPSCAPE_SKIP_WITHOUT_KITTI();
   const std::filesystem::path root = KittiRoot();
