@@ -53,7 +53,7 @@ struct SearchKernels {
   void (*eigen)(std::size_t size, const EigenView& eigen);
 };
 
-constexpr int kWidestVector = 16;
+constexpr std::size_t kWidestVector = 16;
 constexpr std::size_t ScratchFloats(int k) {
   return 2 * kWidestVector * static_cast<std::size_t>(k);
 }

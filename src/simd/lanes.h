@@ -29,24 +29,27 @@ class Lanes {
 
   static Lanes Load(const double* from) {
     Lanes lanes;
-    for (int i = 0; i < kVectors; ++i) {
-      lanes.vectors_[i] = LoadDoubles(from + i * kDoubles);
+    for (DoubleV& v : lanes.vectors_) {
+      v = LoadDoubles(from);
+      from += kDoubles;
     }
     return lanes;
   }
   static Lanes Load(const float* from) {
     typedef float HalfV __attribute__((vector_size(4 * kDoubles)));
     Lanes lanes;
-    for (int i = 0; i < kVectors; ++i) {
-      HalfV v;
-      __builtin_memcpy(&v, from + i * kDoubles, sizeof v);
-      lanes.vectors_[i] = __builtin_convertvector(v, DoubleV);
+    for (DoubleV& v : lanes.vectors_) {
+      HalfV half;
+      __builtin_memcpy(&half, from, sizeof half);
+      v = __builtin_convertvector(half, DoubleV);
+      from += kDoubles;
     }
     return lanes;
   }
   void StoreTo(double* to) const {
-    for (int i = 0; i < kVectors; ++i) {
-      Store(vectors_[i], to + i * kDoubles);
+    for (const DoubleV& v : vectors_) {
+      Store(v, to);
+      to += kDoubles;
     }
   }
 
