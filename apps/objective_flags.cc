@@ -123,6 +123,8 @@ FeatureOptions FeaturesFromFlags() {
   options.smoothness.neighborhood = static_cast<SmoothnessNeighborhood>(IndexOfName(
       "smoothness neighbourhood", FLAGS_smoothness_neighborhood, {"ring", "k_nearest", "radius"}));
   options.smoothness.ring_points_per_side = FLAGS_ring_points_per_side;
+  RequireFlag(FLAGS_smoothness_neighbors <= 1000, "smoothness_neighbors",
+              std::to_string(FLAGS_smoothness_neighbors), "at most 1000");
   options.smoothness.num_neighbors = FLAGS_smoothness_neighbors;
   options.smoothness.radius_m = FLAGS_smoothness_radius_m;
   if (!std::isnan(FLAGS_planar_below)) {
@@ -141,8 +143,8 @@ ObjectiveSetOptions ObjectiveSetFromFlags() {
   ObjectiveSetOptions options;
   options.matching = MatchingFromFlags();
   options.loss = MakeLoss(FLAGS_loss, FLAGS_loss_scale_m);
-  RequireFlag(FLAGS_fit_neighbors >= 3, "fit_neighbors", std::to_string(FLAGS_fit_neighbors),
-              "at least 3");
+  RequireFlag(FLAGS_fit_neighbors >= 3 && FLAGS_fit_neighbors <= 1000, "fit_neighbors",
+              std::to_string(FLAGS_fit_neighbors), "at least 3, at most 1000");
   RequireFlag(FLAGS_patch_leg_m > 0, "patch_leg_m", Number(FLAGS_patch_leg_m), "a positive length");
   options.line.num_neighbors = FLAGS_fit_neighbors;
   options.line.eigenvalue_ratio = AtLeastZero("fit_eigenvalue_ratio", FLAGS_fit_eigenvalue_ratio);

@@ -33,7 +33,7 @@ fi
 
 rm -rf "$out/pairs"
 mkdir -p "$out/pairs"
-settings=(--rounds=7)
+settings=(--rounds=5)
 levels=()  # Those below the one that runs by itself.
 grep -qw avx2 /proc/cpuinfo && levels+=(baseline)
 grep -qw avx512vl /proc/cpuinfo && levels+=(avx2)

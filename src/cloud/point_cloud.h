@@ -3,6 +3,7 @@
 #define ICPSCAPE_SRC_CLOUD_POINT_CLOUD_H_
 
 #include <Eigen/Core>
+#include <cmath>
 #include <cstddef>
 #include <cstdint>
 #include <vector>
@@ -29,7 +30,9 @@ struct PointCloud {
 
   Vec3 Point(std::size_t i) const { return {x[i], y[i], z[i]}; }
   Vec3 Normal(std::size_t i) const { return {nx[i], ny[i], nz[i]}; }
-  bool NormalIsValid(std::size_t i) const { return nx[i] != 0 || ny[i] != 0 || nz[i] != 0; }
+  bool NormalIsValid(std::size_t i) const {
+    return (nx[i] != 0 || ny[i] != 0 || nz[i] != 0) && std::isfinite(nx[i] + ny[i] + nz[i]);
+  }
   PointsView View() const { return {x.data(), y.data(), z.data(), x.size()}; }
 
   /// Keeps the points i with keep[i] != 0, in order, in every array. keep has size() entries.

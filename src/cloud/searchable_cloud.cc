@@ -11,15 +11,17 @@ SearchableCloud::SearchableCloud(const PointCloud& cloud, int threads)
   for (std::size_t place = 0; place < order.size(); ++place) {
     shared->place[static_cast<std::size_t>(order[place])] = static_cast<std::int32_t>(place);
   }
-  const auto in_order = [&](const std::vector<float>& from, std::vector<float>* to) {
-    to->resize(order.size() + kPadding);
-    for (std::size_t place = 0; place < order.size() && !from.empty(); ++place) {
-      (*to)[place] = from[static_cast<std::size_t>(order[place])];
+  for (std::vector<float>* normals : {&shared->nx, &shared->ny, &shared->nz}) {
+    normals->resize(order.size() + kPadding);
+  }
+  for (std::size_t place = 0; place < order.size() && cloud.has_normals(); ++place) {
+    const auto i = static_cast<std::size_t>(order[place]);
+    if (cloud.NormalIsValid(i)) {
+      shared->nx[place] = cloud.nx[i];
+      shared->ny[place] = cloud.ny[i];
+      shared->nz[place] = cloud.nz[i];
     }
-  };
-  in_order(cloud.nx, &shared->nx);
-  in_order(cloud.ny, &shared->ny);
-  in_order(cloud.nz, &shared->nz);
+  }
   shared_ = std::move(shared);
 }
 

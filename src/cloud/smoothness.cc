@@ -99,6 +99,9 @@ void AmongNeighbors(const PointCloud& cloud, const SmoothnessOptions& options, i
   const bool by_count = options.neighborhood == SmoothnessNeighborhood::kKNearest;
   const auto wanted = static_cast<std::size_t>(by_count ? options.num_neighbors : 1);
   const std::vector<std::int32_t>& order = search.Order();
+  if (wanted >= order.size()) {
+    return;  // Nobody has so many others.
+  }
   ForEachPart(order.size(), threads, [&](std::size_t begin, std::size_t end) {
     std::vector<Neighbor> nearest;
     std::vector<Neighbor> found;

@@ -89,7 +89,10 @@ void RejectNotReciprocal(const SearchableCloud& source, const PointCloud& target
     for (std::size_t m = 0; m < whose.size(); ++m) {
       const std::size_t i = whose[m];
       const auto k = static_cast<std::size_t>(nearest[m]);
-      if (k != i && !((source.cloud().Point(i) - source.cloud().Point(k)).norm() <= epsilon_m)) {
+      if (nearest[m] < 0) {
+        matches->target_index[i] = kNone;  // Too far away to be near anything.
+      } else if (k != i &&
+                 !((source.cloud().Point(i) - source.cloud().Point(k)).norm() <= epsilon_m)) {
         matches->target_index[i] = kNone;
       }
     }

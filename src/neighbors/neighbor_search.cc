@@ -27,7 +27,7 @@ struct Scratch {
   std::vector<float> squared_distance;
 
   float* Floats(int k) {
-    const std::size_t needed = ScratchFloats(k) / kWidestVector;
+    const std::size_t needed = ScratchFloats(std::max(k, 1)) / kWidestVector;
     if (vectors.size() < needed) {
       vectors.resize(needed);
     }

@@ -10,7 +10,8 @@ namespace icpscape {
 
 /// What the neighbours of many queries look like, one array entry per query.
 ///
-/// Coordinates are relative to the query and rounded to about 2^-24 of its neighbourhood's radius;
+/// Coordinates are relative to the query and rounded to about 2^-24 of its neighbourhood's radius
+/// (for up to 31 neighbours, one bit more for every four times as many);
 /// beyond that nothing is rounded, so that the moments do not depend on the order in which
 /// neighbours are found.
 struct Neighborhoods {

@@ -42,7 +42,8 @@ Objective::Objective(const std::string& metric, const Matcher& matcher,
     : metric_(metric),
       matcher_(&matcher),
       loss_(std::move(loss)),
-      functions_(&MetricFunctionsOf(metric)) {
+      functions_(&MetricFunctionsOf(metric)),
+      kernel_(BlockKernelOf(functions_->place, ActiveSimdLevel())) {
   if (loss_ == nullptr && functions_->epsilon == Epsilon::kSoftNorm) {
     loss_ = std::make_shared<ceres::SoftLOneLoss>(1);
   }

@@ -66,6 +66,7 @@ class Objective {
   const Matcher* matcher_;
   std::shared_ptr<const ceres::LossFunction> loss_;
   const MetricFunctions* functions_;
+  BlockKernel kernel_;
 };
 
 }  // namespace icpscape

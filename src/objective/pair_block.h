@@ -21,8 +21,8 @@ class PairBlock {
   const BlockValues& values() const { return values_; }
 
   /// Takes the source points [begin, end) of the matcher's order, at most kCapacity. The match of
-  /// point k is entry entry_of(k) of the matches. What is not in `needs`, a union of Needs, may be
-  /// left out.
+  /// point k is entry entry_of(k) of the matches. Fits are left out unless `needs`, a union
+  /// of Needs, has one.
   template <class EntryOf>
   void Fill(const Matcher& matcher, const Matches& matches, std::size_t begin, std::size_t end,
             unsigned needs, const EntryOf& entry_of);
@@ -54,18 +54,18 @@ void PairBlock::Fill(const Matcher& matcher, const Matches& matches, std::size_t
   for (std::size_t i = 0; i < end - begin; ++i) {
     const std::size_t m = entry_of(begin + i);
     const std::int32_t j = matches.target_index[m];
-    values_.matched[i] = j < 0 ? 0.0F : 1.0F;
-    if (j < 0) {
+    const std::int32_t found = j < 0 ? -1 : target_cloud.Place(static_cast<std::size_t>(j));
+    values_.matched[i] = found < 0 ? 0.0F : 1.0F;
+    if (found < 0) {
       continue;
     }
+    const auto place = static_cast<std::size_t>(found);
     if (fits) {
       for (int axis = 0; axis < 3; ++axis) {
         values_.anchor[axis][i] = matches.fits[m].anchor[axis];
         values_.direction[axis][i] = matches.fits[m].direction[axis];
       }
-      continue;
     }
-    const auto place = static_cast<std::size_t>(target_cloud.Place(static_cast<std::size_t>(j)));
     values_.q_target[0][i] = target.x[place];
     values_.q_target[1][i] = target.y[place];
     values_.q_target[2][i] = target.z[place];

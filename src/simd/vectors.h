@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Vectors of the width that a source file is compiled for, written with the compiler's vector
-// extensions. For the files that CMakeLists.txt compiles once per SIMD level, and only for those:
-// everything here has internal linkage, because the linker must never take one level's copy of an
-// inline function for another's. For the same reason such a file includes no header with inline
-// functions of its own, the standard library's containers among them.
+// Vectors of ICPSCAPE_SIMD_WIDTH floats, which the including file defines, written with the
+// compiler's vector extensions. For the files that CMakeLists.txt compiles once per SIMD level, and
+// only for those: everything here has internal linkage, because the linker must never take one
+// level's copy of an inline function for another's. For the same reason such a file uses no inline
+// function that is not a template over these types.
 #ifndef ICPSCAPE_SRC_SIMD_VECTORS_H_
 #define ICPSCAPE_SRC_SIMD_VECTORS_H_
 
@@ -12,17 +12,6 @@
 #endif
 
 #include <cstdint>
-
-#if defined(__AVX512F__)
-#define ICPSCAPE_SIMD_LEVEL avx512
-#define ICPSCAPE_SIMD_WIDTH 16
-#elif defined(__AVX2__)
-#define ICPSCAPE_SIMD_LEVEL avx2
-#define ICPSCAPE_SIMD_WIDTH 8
-#else
-#define ICPSCAPE_SIMD_LEVEL baseline
-#define ICPSCAPE_SIMD_WIDTH 4
-#endif
 
 namespace icpscape {
 namespace {
@@ -61,9 +50,9 @@ inline void Store(V v, T* to) {
 
 // One bit per lane.
 inline unsigned Bits(IntV mask) {
-#if defined(__AVX512F__)
+#if ICPSCAPE_SIMD_WIDTH == 16
   return _mm512_movepi32_mask(reinterpret_cast<__m512i>(mask));
-#elif defined(__AVX2__)
+#elif ICPSCAPE_SIMD_WIDTH == 8
   return static_cast<unsigned>(_mm256_movemask_ps(reinterpret_cast<__m256>(mask)));
 #elif defined(__SSE2__)
   return static_cast<unsigned>(_mm_movemask_ps(reinterpret_cast<__m128>(mask)));
@@ -77,7 +66,7 @@ inline unsigned Bits(IntV mask) {
 }
 inline bool AnyTrue(IntV mask) { return Bits(mask) != 0; }
 inline bool AnyLessEqual(FloatV a, FloatV b) {
-#if defined(__AVX512F__)
+#if ICPSCAPE_SIMD_WIDTH == 16
   return _mm512_cmp_ps_mask(a, b, _CMP_LE_OQ) != 0;  // Without a detour through a vector.
 #else
   return AnyTrue(a <= b);
@@ -86,9 +75,9 @@ inline bool AnyLessEqual(FloatV a, FloatV b) {
 inline bool AnyTrue(LongV mask) { return Bits(reinterpret_cast<IntV>(mask)) != 0; }
 
 inline DoubleV Sqrt(DoubleV v) {
-#if defined(__AVX512F__)
+#if ICPSCAPE_SIMD_WIDTH == 16
   return _mm512_maskz_sqrt_pd(0xFF, v);  // The plain one trips -Wmaybe-uninitialized.
-#elif defined(__AVX2__)
+#elif ICPSCAPE_SIMD_WIDTH == 8
   return _mm256_sqrt_pd(v);
 #elif defined(__SSE2__)
   return _mm_sqrt_pd(v);

@@ -7,6 +7,7 @@
 #include <limits>
 #include <nanoflann.hpp>
 #include <random>
+#include <thread>
 
 #include "src/io/kitti.h"
 #include "tests/support/real_scans.h"
@@ -231,6 +232,43 @@ TEST_P(NeighborSearchAt, WhatIsNotFiniteHasNoNeighborsAndIsNone) {
 TEST_P(NeighborSearchAt, ExtremeCoordinates) {
   const PointCloud cloud = Cloud({{3e38F, 0, 0}, {1e19F, 0, 0}, {1e-30F, 0, 0}, {0, 1e-40F, 0}});
   ExpectEqualsBruteForce(cloud, Cloud({{0, 0, 0}, {1e19F, 0, 0}, {-3e38F, 0, 0}}));
+}
+
+// From far away a float sees a whole wall at one distance.
+TEST_P(NeighborSearchAt, ThousandsOfTies) {
+  std::mt19937 engine(9);
+  std::uniform_real_distribution<double> unit(0, 1);
+  PointCloud wall, queries;
+  for (int i = 0; i < 20000; ++i) {
+    testing_support::AddPoint({0.002 * unit(engine), 20 * unit(engine), 20 * unit(engine)}, &wall);
+  }
+  for (int i = 0; i < 17; ++i) {
+    testing_support::AddPoint({1e5, 0.1 * i, 0}, &queries);
+  }
+  Neighborhoods found;
+  NeighborSearch(wall.View()).KNearest(queries.View(), 5, &found);
+  ExpectMoments(wall, queries, found,
+                [](const std::vector<Neighbor>& all) { return First(all, 5); });
+}
+
+// Fewer than k can be reached: the rest is farther than a float can say.
+TEST_P(NeighborSearchAt, FewerThanKAreWithinReach) {
+  const PointCloud cloud = Cloud({{1e20F, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0, 1}});
+  Neighborhoods found;
+  NeighborSearch(cloud.View()).KNearest(Cloud({{0, 0, 0}}).View(), 4, &found);
+  EXPECT_EQ(found.count[0], 3);
+  EXPECT_EQ(found.farthest_squared_distance[0], 1);
+  EXPECT_EQ(found.Mean(0), Vec3::Constant(1. / 3));
+  EXPECT_EQ(found.Products(0), Mat3::Identity());
+}
+
+TEST_P(NeighborSearchAt, ARadiusIsFineAsAThreadsFirstQuestion) {
+  std::thread([] {
+    const PointCloud cloud = Uniform(100, 10);
+    Neighborhoods found;
+    NeighborSearch(cloud.View()).WithinRadius(cloud.View(), 1, &found);
+    EXPECT_GE(found.count[0], 1);
+  }).join();
 }
 
 TEST_P(NeighborSearchAt, OrderIsAPermutationAndItsPointsFollow) {

@@ -4,6 +4,10 @@
 #include <ceres/loss_function.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
 #include "residuals/registry.h"
 #include "src/landscape/curve.h"
 #include "src/objective/loss.h"
@@ -16,6 +20,9 @@ namespace icpscape {
 namespace {
 
 const SE3d kMotion = SE3d::Exp((Vec6() << 0.01, -0.005, 0.05, 0.3, 0.05, -0.02).finished());
+
+// Turned and moved, and not where the minimum is.
+const SE3d kPose = SE3d::Exp((Vec6() << -0.01, 0.02, 0.03, 0.2, 0.1, 0.02).finished());
 
 const testing_support::MovedRoom& Room() {
   static const testing_support::MovedRoom room(6001, kMotion);
@@ -67,12 +74,12 @@ TEST(Pass, SumsWhatTheResidualsSay) {
   for (const char* loss_name : {"none", "huber", "cauchy"}) {
     const AllObjectives all(MakeLoss(loss_name, 0.05));
     const std::vector<Evaluation> evaluations =
-        EvaluateAll(all.pointers, SE3d(), Derivatives::kHessian, 1);
+        EvaluateAll(all.pointers, kPose, Derivatives::kHessian, 1);
     std::size_t m = 0;
     ForEachMetric([&](auto tag) {
       using Metric = typename decltype(tag)::Metric;
       const Objective& objective = all.objectives[m];
-      const Matches matches = objective.Match(SE3d(), 1);
+      const Matches matches = objective.Match(kPose, 1);
       NormalEquations sums;
       double epsilon = 0;
       for (std::size_t i = 0; i < matches.target_index.size(); ++i) {
@@ -92,12 +99,12 @@ TEST(Pass, SumsWhatTheResidualsSay) {
           c.area_patch = objective.matcher().area_patch();
         }
         const Metric metric = Metric::From(c);
-        const auto r = metric.Residual(SE3d());
+        const auto r = metric.Residual(kPose);
         double rho[3] = {r.squaredNorm(), 1, 0};
         if (objective.loss() != nullptr) {
           objective.loss()->Evaluate(r.squaredNorm(), rho);
         }
-        sums.Add(r, metric.Jacobian(SE3d()), rho);
+        sums.Add(r, metric.Jacobian(kPose), rho);
         epsilon += EvaluateEpsilon(Metric::kEpsilon, r.squaredNorm()).value;
       }
       const Evaluation& ours = evaluations[m++];
@@ -115,17 +122,49 @@ TEST(Pass, SumsWhatTheResidualsSay) {
 TEST(Pass, TogetherIsAsEachAlone) {
   const AllObjectives all;
   const std::vector<Evaluation> together =
-      EvaluateAll(all.pointers, SE3d(), Derivatives::kHessian, 2);
+      EvaluateAll(all.pointers, kPose, Derivatives::kHessian, 2);
   for (std::size_t m = 0; m < all.objectives.size(); ++m) {
-    ExpectSameBits(together[m], all.objectives[m].Evaluate(SE3d(), 1));
+    ExpectSameBits(together[m], all.objectives[m].Evaluate(kPose, 1));
   }
+}
+
+// Points are there for one metric though another one of the same matcher wants lines.
+TEST(Pass, TogetherIsAsEachAloneWhereOneNeedsLines) {
+  const auto lines = testing_support::MatcherFor("edge_to_line", Room().source, Room().target);
+  const Objective points("point_to_point", *lines);
+  const Objective edges("edge_to_line", *lines);
+  const auto together = EvaluateAll({&points, &edges}, kPose, Derivatives::kHessian, 1);
+  ExpectSameBits(together[0], points.Evaluate(kPose, 1));
+  ExpectSameBits(together[1], edges.Evaluate(kPose, 1));
+}
+
+TEST(Pass, LeavesOutPairsWithoutANormalOnEitherSide) {
+  PointCloud source = Room().source;
+  PointCloud target = Room().target;
+  source.nx[3] = source.ny[3] = source.nz[3] = 0;
+  source.ny[5] = std::numeric_limits<float>::quiet_NaN();
+  const ClosestPointMatcher matcher(source, target);
+  const Matches matches = Objective("point_to_point", matcher).Match(kPose, 1);
+  const auto j = static_cast<std::size_t>(matches.target_index[7]);
+  target.nx[j] = target.ny[j] = target.nz[j] = 0;
+  const long into_j =
+      std::count(matches.target_index.begin(), matches.target_index.end(), matches.target_index[7]);
+  const ClosestPointMatcher with_gaps(source, target);
+  const auto n = [&](const char* metric) {
+    const Evaluation evaluation = Objective(metric, with_gaps).Evaluate(kPose, 1);
+    EXPECT_TRUE(std::isfinite(evaluation.sums.cost)) << metric;
+    return evaluation.n();
+  };
+  EXPECT_EQ(n("point_to_point"), 6001);
+  EXPECT_EQ(n("point_to_plane"), 6001 - into_j);
+  EXPECT_EQ(n("symmetric"), 6001 - into_j - 2);
 }
 
 TEST(Pass, FewerDerivativesChangeNothingElse) {
   const AllObjectives all;
-  const auto hessian = EvaluateAll(all.pointers, SE3d(), Derivatives::kHessian, 1);
-  const auto gradient = EvaluateAll(all.pointers, SE3d(), Derivatives::kGradient, 1);
-  const auto none = EvaluateAll(all.pointers, SE3d(), Derivatives::kNone, 1);
+  const auto hessian = EvaluateAll(all.pointers, kPose, Derivatives::kHessian, 1);
+  const auto gradient = EvaluateAll(all.pointers, kPose, Derivatives::kGradient, 1);
+  const auto none = EvaluateAll(all.pointers, kPose, Derivatives::kNone, 1);
   for (std::size_t m = 0; m < all.objectives.size(); ++m) {
     Evaluation expected = hessian[m];
     expected.sums.hessian.setZero();
@@ -144,9 +183,9 @@ TEST(Pass, KeptMatchesAreThoseOfThePose) {
   AllObjectives all;
   all.pointers.push_back(&rejecting);
   MatchesByMatcher kept;
-  const auto associated = EvaluateAll(all.pointers, SE3d(), Derivatives::kHessian, 2, &kept);
-  const auto frozen = EvaluateAll(all.pointers, SE3d(), kept, Derivatives::kHessian, 1);
-  const MatchesByMatcher matched = MatchAll(all.pointers, SE3d(), 2);
+  const auto associated = EvaluateAll(all.pointers, kPose, Derivatives::kHessian, 2, &kept);
+  const auto frozen = EvaluateAll(all.pointers, kPose, kept, Derivatives::kHessian, 1);
+  const MatchesByMatcher matched = MatchAll(all.pointers, kPose, 2);
   EXPECT_EQ(kept.size(), 4U);
   for (const auto& [matcher, matches] : kept) {
     EXPECT_EQ(matches.target_index, matched.at(matcher).target_index);
@@ -165,7 +204,7 @@ TEST(Pass, IsTheSameBitsForAnyThreadsAndEverySimdLevel) {
     PointCloud cloud = Room().source;
     for (const int threads : {1, 2, 4}) {
       const AllObjectives all(MakeLoss("huber", 0.05));
-      results.push_back(EvaluateAll(all.pointers, SE3d(), Derivatives::kHessian, threads));
+      results.push_back(EvaluateAll(all.pointers, kPose, Derivatives::kHessian, threads));
       EstimateNormals({}, threads, &cloud);
       normals.push_back(cloud.nx);
     }
