@@ -186,6 +186,7 @@ void Landscape() {
        FLAGS_column, "--title", pair.title + "\n" + association + ChangedFlags()});
   manifest.AddTiming("figures");
   manifest.Write(out / "manifest.json");
+  std::cout << "time: " << manifest.TimingsText() << '\n';
   std::cout << "written: " << (out / "curves.csv").string()
             << (drawn ? ", landscape.svg, landscape.png" : "")
             << ", a METRIC_rmse.txt for pgfplots each, manifest.json\n";

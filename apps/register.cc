@@ -212,6 +212,7 @@ void Register() {
     }
   }
   manifest.Write(out / "manifest.json");
+  std::cout << "time: " << manifest.TimingsText() << '\n';
   std::cout << "written: " << (out / "T_target_source.txt").string()
             << ", iterations.csv, aligned.ply (the source, moved onto the target)"
             << (FLAGS_starts > 0 ? ", starts.csv" : "") << ", manifest.json\n";

@@ -2,8 +2,10 @@
 #include "src/io/manifest.h"
 
 #include <nlohmann/json.hpp>
+#include <vector>
 
 #include "icpscape_version.h"
+#include "src/common/text.h"
 #include "src/io/output.h"
 #include "src/io/sha256.h"
 
@@ -50,6 +52,14 @@ void Manifest::AddTiming(const std::string& name) {
   const Clock::time_point now = Clock::now();
   impl_->json["timings_s"][name] = std::chrono::duration<double>(now - impl_->last).count();
   impl_->last = now;
+}
+
+std::string Manifest::TimingsText() const {
+  std::vector<std::string> parts;
+  for (const auto& [name, seconds] : impl_->json["timings_s"].items()) {
+    parts.push_back(name + " " + Fixed(seconds.get<double>(), 2) + " s");
+  }
+  return Join(parts);
 }
 
 void Manifest::Write(const std::filesystem::path& path) const {

@@ -161,6 +161,14 @@ TEST(Output, FolderMustBeWritable) {
   EXPECT_TRUE(std::filesystem::is_directory(folder.path() / "a/b"));
 }
 
+TEST(Manifest, SaysWhatTookHowLong) {
+  Manifest manifest("test");
+  EXPECT_EQ(manifest.TimingsText(), "");
+  manifest.AddTiming("read");
+  manifest.AddTiming("draw");
+  EXPECT_EQ(manifest.TimingsText(), "read 0.00 s, draw 0.00 s");
+}
+
 TEST(Manifest, HashesInputs) {
   const TemporaryFolder folder;
   Manifest manifest("test");
