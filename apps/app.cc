@@ -16,6 +16,7 @@
 #include <vector>
 
 #include "src/common/error.h"
+#include "src/simd/level.h"
 
 extern char** environ;
 
@@ -97,6 +98,7 @@ int RunApp(int argc, char** argv, const std::string& summary, const std::functio
         1);
   }
   try {
+    ActiveSimdLevel();  // A level that is none is refused before there is work.
     run();
     return 0;
   } catch (const UsageError& error) {

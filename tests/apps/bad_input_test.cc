@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <cstdlib>
 
 #include "tests/apps/apps_fixture.h"
 
@@ -83,6 +84,13 @@ TEST_F(BadInput, WrongCommandLines) {
   no_truth.back() = "--samples=5";
   EXPECT_EQ(RunProgram("landscape", no_truth).code, 1);
   EXPECT_FALSE(std::filesystem::exists(Path("out/curves.csv")));
+}
+
+TEST_F(BadInput, SimdLevelsThatAreNone) {
+  setenv("ICPSCAPE_SIMD", "sse9", 1);
+  ExpectRefusal(RunProgram("landscape", {"--scene=highway"}), 1,
+                "ICPSCAPE_SIMD=sse9: expected one of baseline");
+  unsetenv("ICPSCAPE_SIMD");
 }
 
 TEST_F(BadInput, BrokenData) {
