@@ -9,6 +9,7 @@
 
 #include "apps/app.h"
 #include "apps/filter_flags.h"
+#include "apps/minimizer_flags.h"
 #include "apps/objective_flags.h"
 #include "apps/pair_flags.h"
 #include "src/common/error.h"
@@ -20,17 +21,7 @@
 #include "src/minimizer/random_starts.h"
 
 DECLARE_int32(seed);
-DECLARE_string(metrics);
 
-DEFINE_string(
-    weights, "",
-    "Weights of the metrics that are minimised together, separated by commas; none is 1 each.");
-DEFINE_string(reassociation, "every_step",
-              "every_step (one Ceres step on frozen pairs, then match again) or every_evaluation "
-              "(one Solve whose every pose is matched anew).");
-DEFINE_int32(max_iterations, 50, "Most steps.");
-DEFINE_double(min_step_m, 1e-4, "Converged when a step is shorter than this (m) ...");
-DEFINE_double(min_step_deg, 1e-3, "... and turns by less than this (degrees).");
 DEFINE_int32(starts, 0, "Random starts about the reference, to measure the success rate.");
 DEFINE_double(start_m, 0.5, "Longest translation of a random start (m).");
 DEFINE_double(start_deg, 3, "Largest rotation of a random start (degrees).");
@@ -40,58 +31,24 @@ namespace {
 
 constexpr double kDegrees = 180 / M_PI;
 
-MinimizerOptions MinimizerFromFlags() {
-  MinimizerOptions options;
-  options.max_iterations = FLAGS_max_iterations;
-  options.min_step_m = FLAGS_min_step_m;
-  options.min_step_rad = FLAGS_min_step_deg / kDegrees;
-  options.threads = ThreadsFromFlags();
-  if (FLAGS_reassociation == "every_evaluation") {
-    options.reassociation = Reassociation::kEveryEvaluation;
-  } else if (FLAGS_reassociation != "every_step") {
-    throw UsageError("--reassociation=" + FLAGS_reassociation +
-                     ": expected every_step or every_evaluation.");
-  }
-  if (options.reassociation == Reassociation::kEveryEvaluation &&
-      gflags::GetCommandLineFlagInfoOrDie("loss").current_value == "tolerant") {
-    throw UsageError(
-        "--loss=tolerant curves upwards: expected --reassociation=every_step with it.");
-  }
-  const std::vector<std::string> metrics = MetricsFromFlags();
-  if (options.reassociation == Reassociation::kEveryEvaluation &&
-      (ObjectiveSetFromFlags().matching.Rejects() ||
-       std::any_of(metrics.begin(), metrics.end(), NeedsFeatures))) {
-    throw UsageError(
-        "--reassociation=every_evaluation compares sums over all pairs: expected every_step where "
-        "pairs are rejected, or lines and patches are fitted.");
-  }
-  if (FLAGS_max_iterations < 1 || !(FLAGS_min_step_m >= 0) || !(FLAGS_min_step_deg >= 0)) {
-    throw UsageError(
-        "--max_iterations, --min_step_m, --min_step_deg: expected at least 1, 0 and 0.");
-  }
-  RequireFlag(FLAGS_starts <= 1000000, "starts", std::to_string(FLAGS_starts), "at most 1e6");
-  RequireFlag(FLAGS_start_m <= 1000, "start_m", Number(FLAGS_start_m), "at most 1000");
-  if (FLAGS_starts < 0 || !(FLAGS_start_m >= 0) || !(FLAGS_start_deg >= 0) ||
-      !(FLAGS_start_deg < 180)) {
-    throw UsageError("--starts, --start_m, --start_deg: expected at least 0, and below 180 deg.");
-  }
-  return options;
-}
-
 void WriteIterations(const MinimizerSummary& summary, const std::filesystem::path& out) {
-  Table csv({"iteration", "cost", "rmse", "n", "gradient_norm", "step_m", "step_deg", "time_s",
-             "qx", "qy", "qz", "qw", "tx_m", "ty_m", "tz_m"});
-  std::printf("%4s %22s %12s %8s %11s %11s %8s\n", "iter", "cost", "RMSE", "n", "step (m)",
-              "step (deg)", "time (s)");
+  Table csv({"iteration", "cost", "rmse", "n", "gradient_norm", "smallest_eigenvalue",
+             "largest_eigenvalue", "step_m", "step_deg", "time_s", "qx", "qy", "qz", "qw", "tx_m",
+             "ty_m", "tz_m"});
+  std::printf("%4s %22s %12s %8s %11s %11s %11s %8s\n", "iter", "cost", "RMSE", "n", "eig min/max",
+              "step (m)", "step (deg)", "time (s)");
   for (std::size_t i = 0; i < summary.iterates.size(); ++i) {
     const Iterate& it = summary.iterates[i];
-    std::printf("%4zu %22.15g %12.8f %8ld %11.3e %11.3e %8.3f\n", i, it.cost, it.rmse, it.n,
-                it.step_m, it.step_rad * kDegrees, it.time_s);
+    std::printf("%4zu %22.15g %12.8f %8ld %11.3e %11.3e %11.3e %8.3f\n", i, it.cost, it.rmse, it.n,
+                it.smallest_eigenvalue / it.largest_eigenvalue, it.step_m, it.step_rad * kDegrees,
+                it.time_s);
     std::vector<std::string> row = {std::to_string(i),
                                     Number(it.cost),
                                     Number(it.rmse),
                                     std::to_string(it.n),
                                     Number(it.gradient_norm),
+                                    Number(it.smallest_eigenvalue),
+                                    Number(it.largest_eigenvalue),
                                     Number(it.step_m),
                                     Number(it.step_rad * kDegrees),
                                     Number(it.time_s)};
@@ -146,28 +103,18 @@ void RunStarts(const JointObjective& objective, const SE3d& T_reference, Minimiz
   manifest->AddTiming("starts");
 }
 
-// The metrics of --metrics as one weighted sum.
-JointObjective JointFromFlags(const ObjectiveSet& set) {
-  const std::vector<std::string> weights = Split(FLAGS_weights);
-  std::vector<JointObjective::Term> terms;
-  for (std::size_t i = 0; i < set.objectives().size(); ++i) {
-    terms.push_back({&set.objectives()[i], weights.empty() ? 1.0 : ParseNumber(weights[i])});
-  }
-  return JointObjective(std::move(terms));
-}
-
 void CheckFlags() {
   CheckPairFlags(MetricsFromFlags(), FLAGS_starts > 0);
   CheckFilterFlags();
   FeaturesFromFlags();
   ObjectiveSetFromFlags();
   MinimizerFromFlags();
-  const std::vector<std::string> weights = Split(FLAGS_weights);
-  RequireFlag(weights.empty() || weights.size() == MetricsFromFlags().size(), "weights",
-              FLAGS_weights, "one weight per metric");
-  for (const std::string& weight : weights) {
-    RequireFlag(ParseNumber(weight) > 0 && std::isfinite(ParseNumber(weight)), "weights",
-                FLAGS_weights, "positive numbers");
+  CheckWeightFlags();
+  RequireFlag(FLAGS_starts <= 1000000, "starts", std::to_string(FLAGS_starts), "at most 1e6");
+  RequireFlag(FLAGS_start_m <= 1000, "start_m", Number(FLAGS_start_m), "at most 1000");
+  if (FLAGS_starts < 0 || !(FLAGS_start_m >= 0) || !(FLAGS_start_deg >= 0) ||
+      !(FLAGS_start_deg < 180)) {
+    throw UsageError("--starts, --start_m, --start_deg: expected at least 0, and below 180 deg.");
   }
 }
 
@@ -187,7 +134,7 @@ void Register() {
   FilterPair(&pair, &manifest);
 
   const ObjectiveSet set(pair.source, pair.target, pair.features, metrics, ObjectiveSetFromFlags());
-  const JointObjective objective = JointFromFlags(set);
+  const JointObjective objective = JointFromFlags(set.objectives());
   const MinimizerSummary summary = Minimize(objective, pair.T_initial, options);
   manifest.AddTiming("register");
   if (!summary.Usable()) {

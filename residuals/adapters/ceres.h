@@ -10,7 +10,9 @@
 #include <array>
 #include <functional>
 #include <utility>
+#include <vector>
 
+#include "residuals/dof_mask.h"
 #include "residuals/normal_equations.h"
 
 namespace icpscape {
@@ -78,6 +80,69 @@ class SE3Manifold final : public ceres::Manifold {
     m << q[3], -q[2], q[1], q[2], q[3], -q[0], -q[1], q[0], q[3], -q[0], -q[1], -q[2];
     return m;
   }
+};
+
+/// SE(3) with steps in the free directions alone, as ceres::SubsetManifold is for vectors:
+/// Plus(x, d) = x Exp(S d), Minus(y, x) = S^T Log(x^-1 y), where the columns of S (6 x k) are the
+/// unit vectors of the mask. kPlanarDof is closed under composition: however many steps, the body
+/// stays in the x-y plane that it started in; other masks restrict each step alone. As with Ceres'
+/// own, Minus undoes Plus, and nothing else.
+class SE3SubsetManifold final : public ceres::Manifold {
+ public:
+  /// At least one direction must be free.
+  explicit SE3SubsetManifold(const DofMask& free) {
+    for (int i = 0; i < 6; ++i) {
+      if (free[static_cast<std::size_t>(i)]) {
+        free_.push_back(i);
+      }
+    }
+  }
+
+  int AmbientSize() const override { return 7; }
+  int TangentSize() const override { return static_cast<int>(free_.size()); }
+
+  bool Plus(const double* x, const double* delta, double* x_plus_delta) const override {
+    Vec6 xi = Vec6::Zero();
+    for (int k = 0; k < TangentSize(); ++k) {
+      xi[free_[static_cast<std::size_t>(k)]] = delta[k];
+    }
+    return whole_.Plus(x, xi.data(), x_plus_delta);
+  }
+
+  bool PlusJacobian(const double* x, double* jacobian) const override {
+    SE3Manifold::PlusMatrix whole;
+    whole_.PlusJacobian(x, whole.data());
+    RowMajor J(jacobian, 7, TangentSize());
+    for (int k = 0; k < TangentSize(); ++k) {
+      J.col(k) = whole.col(free_[static_cast<std::size_t>(k)]);
+    }
+    return true;
+  }
+
+  bool Minus(const double* y, const double* x, double* y_minus_x) const override {
+    Vec6 xi;
+    whole_.Minus(y, x, xi.data());
+    for (int k = 0; k < TangentSize(); ++k) {
+      y_minus_x[k] = xi[free_[static_cast<std::size_t>(k)]];
+    }
+    return true;
+  }
+
+  bool MinusJacobian(const double* x, double* jacobian) const override {
+    const SE3Manifold::MinusMatrix whole = SE3Manifold::MinusMatrixAt(x);
+    RowMajor J(jacobian, TangentSize(), 7);
+    for (int k = 0; k < TangentSize(); ++k) {
+      J.row(k) = whole.row(free_[static_cast<std::size_t>(k)]);
+    }
+    return true;
+  }
+
+ private:
+  using RowMajor =
+      Eigen::Map<Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>>;
+
+  SE3Manifold whole_;
+  std::vector<int> free_;
 };
 
 /// One correspondence as a Ceres cost function over the SE(3) block. The simplest way to use a

@@ -8,18 +8,18 @@
 
 #include <algorithm>
 #include <array>
-#include <chrono>
 #include <functional>
 #include <limits>
-#include <tuple>
 #include <utility>
 
 #include "residuals/adapters/ceres.h"
 #include "src/common/parallel.h"
+#include "src/minimizer/loop.h"
 
 namespace icpscape {
 namespace {
 
+using internal::Loop;
 using Parameters = std::array<double, 7>;
 
 // The pose as Ceres sees it: through the parameters and back, so that both sides of the loop
@@ -49,100 +49,6 @@ ceres::Solver::Options SolverOptions() {
   return options;
 }
 
-// The bookkeeping that both modes share.
-class Loop {
- public:
-  Loop(const JointObjective& objective, const MinimizerOptions& options)
-      : objective_(objective), options_(options) {}
-
-  const MinimizerOptions& options() const { return options_; }
-
-  // Where `keep` is given, the matches go there.
-  Evaluation Reassociated(const SE3d& T, MatchesByMatcher* keep = nullptr) {
-    ++summary_.matching_passes;
-    return objective_.Evaluate(T, options_.threads, keep);
-  }
-  // The cost over frozen matches, and nothing else.
-  NormalEquations FrozenCost(const SE3d& T, const MatchesByMatcher& matches) const {
-    return objective_.Evaluate(T, matches, options_.threads, Derivatives::kNone).sums;
-  }
-
-  void Record(const SE3d& T, const Evaluation& evaluation) {
-    Iterate iterate;
-    iterate.T_target_source = T;
-    iterate.cost = evaluation.sums.cost;
-    iterate.rmse = evaluation.Rmse();
-    iterate.n = evaluation.n();
-    iterate.gradient_norm = evaluation.sums.gradient.norm();
-    if (!summary_.iterates.empty()) {
-      std::tie(iterate.step_m, iterate.step_rad) =
-          Length(summary_.iterates.back().T_target_source, T);
-    }
-    iterate.time_s = std::chrono::duration<double>(Clock::now() - start_).count();
-    summary_.iterates.push_back(iterate);
-  }
-
-  // Whether a step is short enough to end the loop.
-  bool IsShort(double step_m, double step_rad) const {
-    return step_m < options_.min_step_m && step_rad < options_.min_step_rad;
-  }
-  // Of the step from the last recorded pose to this one.
-  bool IsShortStepTo(const SE3d& T) const {
-    const auto [step_m, step_rad] = Length(summary_.iterates.back().T_target_source, T);
-    return IsShort(step_m, step_rad);
-  }
-  bool LastStepWasShort() const {
-    return summary_.iterates.size() > 1 &&
-           IsShort(summary_.iterates.back().step_m, summary_.iterates.back().step_rad);
-  }
-  // A step that is short because longer ones were rejected before it is no convergence.
-  MinimizerSummary EndShortStep(int rejected) {
-    return rejected == 0
-               ? End(Termination::kConverged, "The step from here is shorter than the limit.")
-               : EndNoDescent();
-  }
-
-  MinimizerSummary End(Termination termination, std::string message) {
-    summary_.termination = termination;
-    summary_.message = std::move(message);
-    return std::move(summary_);
-  }
-  MinimizerSummary EndNoCorrespondences() {
-    return End(Termination::kNoCorrespondences, "No pair of points is left after " +
-                                                    std::to_string(summary_.iterates.size()) +
-                                                    " iterates.");
-  }
-  MinimizerSummary EndFlat() {
-    return End(Termination::kFailure,
-               "Every pair is an outlier under the loss, which is flat there; expected a larger "
-               "scale or a better start.");
-  }
-  MinimizerSummary EndMaxIterations() {
-    return End(
-        Termination::kMaxIterations,
-        "The limit of " + std::to_string(options_.max_iterations) + " iterations was reached.");
-  }
-  MinimizerSummary EndNoDescent() {
-    return End(Termination::kNoDescent, "No step lowered the cost any further.");
-  }
-
-  std::vector<Iterate>* iterates() { return &summary_.iterates; }
-
- private:
-  using Clock = std::chrono::steady_clock;
-
-  // In metres and radians.
-  static std::pair<double, double> Length(const SE3d& from, const SE3d& to) {
-    const SE3d step = from.Inverse() * to;
-    return {step.t().norm(), step.LogRotation().norm()};
-  }
-
-  const JointObjective& objective_;
-  const MinimizerOptions& options_;
-  MinimizerSummary summary_;
-  Clock::time_point start_ = Clock::now();
-};
-
 class FunctionCallback final : public ceres::IterationCallback {
  public:
   using Function = std::function<ceres::CallbackReturnType(const ceres::IterationSummary&)>;
@@ -170,7 +76,7 @@ StepResult Step(const JointObjective& objective, const Loop& loop, const Matches
                 const Evaluation& at_start, Parameters* x) {
   ceres::Problem problem(UnownedLoss());
   ceres::Solver::Options options = SolverOptions();
-  problem.AddParameterBlock(x->data(), 7, new SE3Manifold);
+  problem.AddParameterBlock(x->data(), 7, new SE3SubsetManifold(loop.options().free));
   if (objective.HasUpwardLoss()) {
     objective.AddResidualBlocks(matches, x->data(), &problem);
     options.num_threads = std::min(loop.options().threads, HardwareThreads());
@@ -214,9 +120,12 @@ MinimizerSummary MinimizeEveryStep(const JointObjective& objective, Parameters x
     if (iteration == 0 && objective.HasUpwardLoss()) {
       LOG(WARNING) << "The loss curves upwards: one residual block per pair, which is slow.";
     }
-    loop.Record(T, evaluation);
+    loop.Record(T, evaluation, matches);
     if (Flat(evaluation)) {
       return loop.EndFlat();
+    }
+    if (loop.Ended()) {
+      return loop.EndHere();
     }
     if (iteration == loop.options().max_iterations) {
       return loop.EndMaxIterations();
@@ -236,20 +145,24 @@ MinimizerSummary MinimizeEveryStep(const JointObjective& objective, Parameters x
 MinimizerSummary MinimizeEveryEvaluation(Parameters x, Loop loop) {
   struct {
     SE3d T;
+    MatchesByMatcher matches;  // Where they are observed.
     Evaluation evaluation;
   } last;
-  const auto evaluate = [&](const SE3d& T) { last = {T, loop.Reassociated(T)}; };
+  const auto evaluate = [&](const SE3d& T) {
+    last.T = T;
+    last.evaluation = loop.Reassociated(T, loop.Observed() ? &last.matches : nullptr);
+  };
   evaluate(SE3d::FromParameters(x.data()));
   if (last.evaluation.n() == 0) {
     return loop.EndNoCorrespondences();
   }
   if (Flat(last.evaluation)) {
-    loop.Record(last.T, last.evaluation);
+    loop.Record(last.T, last.evaluation, last.matches);
     return loop.EndFlat();
   }
   bool first = true;
   ceres::Problem problem;
-  problem.AddParameterBlock(x.data(), 7, new SE3Manifold);
+  problem.AddParameterBlock(x.data(), 7, new SE3SubsetManifold(loop.options().free));
   problem.AddResidualBlock(new SquareRootCost([&](const SE3d& T) {
                              if (!std::exchange(first, false)) {
                                evaluate(T);
@@ -270,8 +183,8 @@ MinimizerSummary MinimizeEveryEvaluation(Parameters x, Loop loop) {
     // The problem's own parameters are the best so far, not the current ones: under non-monotone
     // steps these are the pose evaluated last.
     if (iteration.iteration == 0 || iteration.step_is_successful) {
-      loop.Record(last.T, last.evaluation);
-      if (loop.LastStepWasShort()) {
+      loop.Record(last.T, last.evaluation, last.matches);
+      if (loop.Ended() || loop.LastStepWasShort()) {
         return ceres::SOLVER_TERMINATE_SUCCESSFULLY;
       }
       rejected = 0;
@@ -294,6 +207,9 @@ MinimizerSummary MinimizeEveryEvaluation(Parameters x, Loop loop) {
       std::min_element(iterates->begin(), iterates->end(),
                        [](const Iterate& a, const Iterate& b) { return a.cost < b.cost; });
   iterates->erase(best + 1, iterates->end());
+  if (loop.Ended()) {
+    return loop.EndHere();
+  }
   if (short_step) {
     return loop.EndShortStep(rejected);
   }
@@ -313,10 +229,16 @@ const char* TerminationName(Termination termination) {
   switch (termination) {
     case Termination::kConverged:
       return "converged";
+    case Termination::kCostChange:
+      return "cost_change";
+    case Termination::kCostReached:
+      return "cost_reached";
     case Termination::kNoDescent:
       return "no_descent";
     case Termination::kMaxIterations:
       return "max_iterations";
+    case Termination::kStopped:
+      return "stopped";
     case Termination::kNoCorrespondences:
       return "no_correspondences";
     case Termination::kFailure:

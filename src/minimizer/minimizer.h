@@ -2,9 +2,11 @@
 #ifndef ICPSCAPE_SRC_MINIMIZER_MINIMIZER_H_
 #define ICPSCAPE_SRC_MINIMIZER_MINIMIZER_H_
 
+#include <functional>
 #include <string>
 #include <vector>
 
+#include "residuals/dof_mask.h"
 #include "src/objective/joint_objective.h"
 
 namespace icpscape {
@@ -20,15 +22,9 @@ enum class Reassociation {
   kEveryStep,
 };
 
-struct MinimizerOptions {
-  Reassociation reassociation = Reassociation::kEveryStep;
-  int max_iterations = 50;
-  /// Converged where the next step would be shorter than both. A tenth of a millimetre is far below
-  /// what re-association leaves of the objective's smoothness.
-  double min_step_m = 1e-4;
-  double min_step_rad = 1e-5;
-  int threads = 1;
-};
+/// Rotations are measured in metres at this distance where the eigenvalues of a Hessian are
+/// compared with one another: xi' = [L omega; v], H' = D^-1 H D^-1, D = diag(L, L, L, 1, 1, 1).
+inline constexpr double kRotationLength_m = 10;
 
 /// One accepted pose. All values are the objective's at this pose, with the matches of this pose.
 struct Iterate {
@@ -37,15 +33,50 @@ struct Iterate {
   double rmse = 0;
   long n = 0;
   double gradient_norm = 0;
+  /// Of the Gauss-Newton Hessian over the free directions, rotations in units of 1 /
+  /// kRotationLength_m (m^2 per m^2). A smallest one near 0 is a direction that the pairs do not
+  /// see.
+  double smallest_eigenvalue = 0, largest_eigenvalue = 0;
   double step_m = 0;    ///< Length of the translation since the iterate before.
   double step_rad = 0;  ///< Angle of the rotation since the iterate before.
   double time_s = 0;    ///< Since the start of Minimize.
 };
 
+/// What an observer sees of an iterate; valid during the call.
+struct Observation {
+  const Iterate& iterate;
+  const Evaluation& evaluation;     ///< Value, gradient, Hessian and eps there.
+  const MatchesByMatcher& matches;  ///< The pairs that they are sums over.
+};
+
+/// Called once for every iterate, the start included; false ends the loop.
+using Observer = std::function<bool(const Observation&)>;
+
+struct MinimizerOptions {
+  Reassociation reassociation = Reassociation::kEveryStep;
+  int max_iterations = 50;
+  /// Converged where the next step would be shorter than both. A tenth of a millimetre is far below
+  /// what re-association leaves of the objective's smoothness.
+  double min_step_m = 1e-4;
+  double min_step_rad = 1e-5;
+  /// Ends where the cost changed by less than this share of it from one iterate to the next; 0
+  /// never does. The matches change between the two.
+  double min_cost_change = 0;
+  /// Ends where the cost is this or less [the paper's "falls below threshold", sec. 2].
+  double max_final_cost = 0;
+  /// Directions in which the source may move.
+  DofMask free = kAllDof;
+  Observer observer = nullptr;
+  int threads = 1;
+};
+
 enum class Termination {
   kConverged,          ///< The next step would be short enough.
+  kCostChange,         ///< The cost hardly changed.
+  kCostReached,        ///< The cost is as low as was asked for.
   kNoDescent,          ///< No step along the model lowered the cost, or only a vanishing one.
   kMaxIterations,      ///< The limit on iterations was reached.
+  kStopped,            ///< The observer ended it.
   kNoCorrespondences,  ///< A pose had no usable pair.
   kFailure,            ///< The solver gave up; the message says why.
 };
@@ -59,8 +90,7 @@ struct MinimizerSummary {
   int matching_passes = 0;
 
   bool Usable() const {
-    return termination == Termination::kConverged || termination == Termination::kNoDescent ||
-           termination == Termination::kMaxIterations;
+    return termination != Termination::kNoCorrespondences && termination != Termination::kFailure;
   }
   /// The result and its cost: the re-associated objective's value at that pose.
   const SE3d& T_target_source() const { return iterates.back().T_target_source; }
@@ -70,6 +100,8 @@ struct MinimizerSummary {
 /// The closed loop [paper fig. 1]: minimises the objective from a start pose with Ceres, through
 /// one SquareRootCost (or, for a loss with rho'' > 0, one residual block per pair; that needs
 /// kEveryStep and is said in the log). Never throws for trouble with the data: see termination.
+/// Under kEveryEvaluation the observer also sees what non-monotone steps tried on the way; the
+/// summary ends with the pose of least cost.
 MinimizerSummary Minimize(const JointObjective& objective, const SE3d& T_start,
                           const MinimizerOptions& options);
 

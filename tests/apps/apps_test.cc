@@ -86,6 +86,19 @@ TEST_F(Apps, RegisterFindsTheMotionAndItsCostIsTheLandscapes) {
   EXPECT_NEAR(landscape, std::stod(cost), 1e-12 * landscape);
 }
 
+TEST_F(Apps, RegisterStopsAndMovesAsItIsTold) {
+  ASSERT_EQ(RunProgram("register", Files({"--dof=yaw,x"})).code, 0);
+  const SE3d T = ReadTransform(Path("out/T_target_source.txt"));
+  EXPECT_NE(T.LogRotation().z(), 0);
+  EXPECT_NEAR(T.LogRotation().head<2>().norm(), 0, 1e-12);
+  EXPECT_NEAR(T.t().z(), 0, 1e-12);
+  const Outcome stopped = RunProgram("register", Files({"--max_final_cost=1e6"}));
+  EXPECT_THAT(stopped.out, HasSubstr("cost_reached: The cost is at most 1e+06."));
+  EXPECT_EQ(ReadCsv(Path("out/iterations.csv")).size(), 1U);
+  const Outcome hardly = RunProgram("register", Files({"--min_cost_change=0.9"}));
+  EXPECT_THAT(hardly.out, HasSubstr("cost_change: "));
+}
+
 TEST_F(Apps, RefinedReferenceIsWhereTheClosedLoopEnds) {
   // A truth that is 10 cm off; refined, u = 1 is where point-to-plane ends (under the check's
   // gate).

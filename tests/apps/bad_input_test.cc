@@ -58,6 +58,10 @@ TEST_F(BadInput, WrongCommandLines) {
       "expected every_step where pairs are rejected");
   ExpectRefusal(RunProgram("register", Files({"--weights=1,2"})), 1, "one weight per metric");
   ExpectRefusal(RunProgram("register", Files({"--weights=inf"})), 1, "positive numbers");
+  ExpectRefusal(RunProgram("register", Files({"--dof=sideways"})), 1, "roll");
+  ExpectRefusal(RunProgram("register", Files({"--dof="})), 1, "planar");
+  ExpectRefusal(RunProgram("register", Files({"--min_cost_change=1"})), 1, "below 1");
+  ExpectRefusal(RunProgram("register", Files({"--max_final_cost=nan"})), 1, "at least 0");
   ExpectRefusal(
       RunProgram("register", Files({"--reassociation=every_evaluation", "--metrics=edge_to_line"})),
       1, "fitted");

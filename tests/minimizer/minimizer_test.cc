@@ -4,6 +4,9 @@
 #include <ceres/loss_function.h>
 #include <gtest/gtest.h>
 
+#include <Eigen/Eigenvalues>
+#include <cmath>
+
 #include "residuals/registry.h"
 #include "src/cloud/normals.h"
 #include "src/io/kitti.h"
@@ -91,6 +94,106 @@ TEST_P(BothModes, RecordsStepsAndPasses) {
     EXPECT_GE(summary.iterates[i].time_s, summary.iterates[i - 1].time_s);
   }
   EXPECT_GE(summary.matching_passes, static_cast<int>(summary.iterates.size()));
+}
+
+// Eigenvalues by another algorithm: the general solver, which does not know that H is symmetric.
+TEST_P(BothModes, RecordsTheEigenvaluesOfTheFreeDirections) {
+  const ClosestPointMatcher matcher(Room().source, Room().target);
+  const Objective objective("point_to_plane", matcher);
+  for (const DofMask& mask : {kAllDof, kPlanarDof}) {
+    MinimizerOptions options = Options();
+    options.free = mask;
+    const Iterate last = Minimize(objective, SE3d(), options).iterates.back();
+    Mat6 H = objective.Evaluate(last.T_target_source, 1).sums.Hessian();
+    H.topRows<3>() /= 10;
+    H.leftCols<3>() /= 10;
+    const Eigen::VectorXd eigenvalues =
+        mask == kAllDof ? Eigen::MatrixXd(H).eigenvalues().real().eval()
+                        : Eigen::MatrixXd(H.block<3, 3>(2, 2)).eigenvalues().real().eval();
+    EXPECT_NEAR(last.smallest_eigenvalue, eigenvalues.minCoeff(), 1e-9 * eigenvalues.maxCoeff());
+    EXPECT_NEAR(last.largest_eigenvalue, eigenvalues.maxCoeff(), 1e-9 * eigenvalues.maxCoeff());
+    EXPECT_GT(last.smallest_eigenvalue, 0);
+  }
+}
+
+// A car stays on the ground, and settles where no direction that it has lowers the cost; the room's
+// motion has some height and tilt, towards which it would go if it could.
+TEST_P(BothModes, MovesInTheFreeDirectionsAlone) {
+  const ClosestPointMatcher matcher(Room().source, Room().target);
+  const auto settles_in_the_plane = [&](const char* loss) {
+    const Objective objective("point_to_plane", matcher, MakeLoss(loss, 0.05));
+    MinimizerOptions options = Options();
+    options.free = kPlanarDof;
+    const MinimizerSummary summary = Minimize(objective, SE3d(), options);
+    ASSERT_TRUE(summary.Usable()) << summary.message;
+    for (const Iterate& iterate : summary.iterates) {
+      EXPECT_NEAR(iterate.T_target_source.t().z(), 0, 1e-12);
+      EXPECT_NEAR(iterate.T_target_source.LogRotation().head<2>().norm(), 0, 1e-12);
+    }
+    const Vec6 gradient = objective.Evaluate(summary.T_target_source(), 1).sums.gradient;
+    EXPECT_LT(gradient.segment<3>(2).norm(), 0.05 * gradient.norm()) << loss;
+    EXPECT_LT((summary.T_target_source().t() - kMotion.t()).head<2>().norm(), 0.03) << loss;
+  };
+  settles_in_the_plane("none");
+  if (GetParam() == Reassociation::kEveryStep) {
+    settles_in_the_plane("tolerant");  // One residual block per pair: the same manifold.
+  }
+}
+
+TEST_P(BothModes, ShowsEveryIterateToTheObserver) {
+  const ClosestPointMatcher matcher(Room().source, Room().target);
+  const Objective objective("point_to_plane", matcher);
+  MinimizerOptions options = Options();
+  std::vector<double> costs;
+  options.observer = [&](const Observation& seen) {
+    costs.push_back(seen.iterate.cost);
+    // The pairs are those that the values are sums over.
+    const Evaluation again =
+        objective.Evaluate(seen.iterate.T_target_source, seen.matches.at(&matcher), 1);
+    EXPECT_EQ(again.sums.cost, seen.iterate.cost);
+    EXPECT_EQ(again.sums.gradient, seen.evaluation.sums.gradient);
+    return true;
+  };
+  const MinimizerSummary observed = Minimize(objective, SE3d(), options);
+  ASSERT_GE(costs.size(), observed.iterates.size());
+  for (std::size_t i = 0; i < observed.iterates.size(); ++i) {
+    EXPECT_EQ(costs[i], observed.iterates[i].cost);
+  }
+  EXPECT_EQ(observed.final_cost(), Minimize(objective, SE3d(), Options()).final_cost());
+
+  int seen = 0;
+  options.observer = [&](const Observation&) { return ++seen < 3; };
+  const MinimizerSummary stopped = Minimize(objective, SE3d(), options);
+  EXPECT_EQ(stopped.termination, Termination::kStopped);
+  EXPECT_TRUE(stopped.Usable());
+  EXPECT_EQ(seen, 3);
+  EXPECT_LE(stopped.iterates.size(), 3U);
+}
+
+TEST_P(BothModes, StopsByTheCost) {
+  const ClosestPointMatcher matcher(Room().source, Room().target);
+  const Objective objective("point_to_point", matcher);
+  const std::vector<Iterate> whole = Minimize(objective, SE3d(), Options()).iterates;
+  ASSERT_GT(whole.size(), 3U);
+
+  MinimizerOptions options = Options();
+  options.max_final_cost = 0.5 * (whole[0].cost + whole[1].cost);
+  const MinimizerSummary reached = Minimize(objective, SE3d(), options);
+  EXPECT_EQ(reached.termination, Termination::kCostReached);
+  EXPECT_EQ(reached.iterates.size(), 2U);
+  EXPECT_LE(reached.final_cost(), options.max_final_cost);
+
+  options = Options();
+  options.min_cost_change = 0.1;
+  const MinimizerSummary hardly = Minimize(objective, SE3d(), options);
+  EXPECT_EQ(hardly.termination, Termination::kCostChange);
+  std::size_t expected = 1;  // The first iterate that is within a tenth of the cost before it.
+  while (std::abs(whole[expected].cost - whole[expected - 1].cost) >=
+         0.1 * whole[expected - 1].cost) {
+    ++expected;
+  }
+  EXPECT_LT(expected, whole.size() - 1);
+  EXPECT_EQ(hardly.iterates.size(), expected + 1);
 }
 
 // Gauss-Newton as one writes it by hand, on the same objective: as many matching passes, and the

@@ -47,6 +47,40 @@ TEST(SE3Manifold, PlusIsTheExponentialFromTheRight) {
   }
 }
 
+TEST(SE3SubsetManifold, HoldsCeresInvariants) {
+  ResidualSampler sampler(43);
+  for (const DofMask& mask : {kAllDof, kPlanarDof, DofMask{false, true, false, true, false, true},
+                              DofMask{false, false, false, false, false, true}}) {
+    const SE3SubsetManifold manifold(mask);
+    for (int i = 0; i < 250; ++i) {
+      const int size = manifold.TangentSize();
+      Vector x(7), y(7), delta(size), to_y(size);
+      sampler.Pose(3, sampler.Uniform(0, 3)).ToParameters(x.data());
+      for (int k = 0; k < size; ++k) {
+        delta[k] = sampler.Uniform(-1, 1);
+        to_y[k] = sampler.Uniform(-1, 1);
+      }
+      manifold.Plus(x.data(), to_y.data(), y.data());
+      EXPECT_THAT_MANIFOLD_INVARIANTS_HOLD(manifold, x, delta, y, 1e-9);
+    }
+  }
+}
+
+TEST(SE3SubsetManifold, StepsInTheFreeDirections) {
+  ResidualSampler sampler(2);
+  const SE3d T = sampler.Pose(3, 1);
+  double x[7], moved[7];
+  T.ToParameters(x);
+  const double delta[3] = {0.2, 1.5, -0.3};
+  SE3SubsetManifold(kPlanarDof).Plus(x, delta, moved);
+  const SE3d step = T.Inverse() * SE3d::FromParameters(moved);
+  EXPECT_NEAR(step.t().z(), 0, 1e-14);
+  EXPECT_LE((step.LogRotation() - Vec3(0, 0, 0.2)).norm(), 1e-14);
+  // Along the arc, not the chord: the true exponential.
+  EXPECT_LE((step.t() - SE3d::Exp((Vec6() << 0, 0, 0.2, 1.5, -0.3, 0).finished()).t()).norm(),
+            1e-14);
+}
+
 // Sums over pairs, by the plain door.
 template <class Metric>
 NormalEquations SumsAt(const std::vector<Metric>& metrics, const SE3d& T,

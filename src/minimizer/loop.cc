@@ -1,0 +1,136 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "src/minimizer/loop.h"
+
+#include <Eigen/Eigenvalues>
+#include <cmath>
+#include <tuple>
+
+#include "src/common/text.h"
+
+namespace icpscape::internal {
+namespace {
+
+// Smallest and largest over the free directions, rotations in units of 1 / kRotationLength_m.
+std::pair<double, double> ExtremeEigenvalues(const Mat6& hessian, const DofMask& free) {
+  std::vector<int> directions;
+  for (int i = 0; i < 6; ++i) {
+    if (free[static_cast<std::size_t>(i)]) {
+      directions.push_back(i);
+    }
+  }
+  const auto size = static_cast<Eigen::Index>(directions.size());
+  Eigen::MatrixXd scaled(size, size);
+  for (Eigen::Index row = 0; row < size; ++row) {
+    for (Eigen::Index column = 0; column < size; ++column) {
+      const int i = directions[static_cast<std::size_t>(row)];
+      const int j = directions[static_cast<std::size_t>(column)];
+      scaled(row, column) =
+          hessian(i, j) / ((i < 3 ? kRotationLength_m : 1.0) * (j < 3 ? kRotationLength_m : 1.0));
+    }
+  }
+  const Eigen::VectorXd eigenvalues =
+      Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd>(scaled, Eigen::EigenvaluesOnly).eigenvalues();
+  return {eigenvalues[0], eigenvalues[size - 1]};
+}
+
+// In metres and radians.
+std::pair<double, double> Length(const SE3d& from, const SE3d& to) {
+  const SE3d step = from.Inverse() * to;
+  return {step.t().norm(), step.LogRotation().norm()};
+}
+
+}  // namespace
+
+Evaluation Loop::Reassociated(const SE3d& T, MatchesByMatcher* keep) {
+  ++summary_.matching_passes;
+  return objective_.Evaluate(T, options_.threads, keep);
+}
+
+NormalEquations Loop::FrozenCost(const SE3d& T, const MatchesByMatcher& matches) const {
+  return objective_.Evaluate(T, matches, options_.threads, Derivatives::kNone).sums;
+}
+
+void Loop::Record(const SE3d& T, const Evaluation& evaluation, const MatchesByMatcher& matches) {
+  Iterate iterate;
+  iterate.T_target_source = T;
+  iterate.cost = evaluation.sums.cost;
+  iterate.rmse = evaluation.Rmse();
+  iterate.n = evaluation.n();
+  iterate.gradient_norm = evaluation.sums.gradient.norm();
+  std::tie(iterate.smallest_eigenvalue, iterate.largest_eigenvalue) =
+      ExtremeEigenvalues(evaluation.sums.Hessian(), options_.free);
+  if (!summary_.iterates.empty()) {
+    std::tie(iterate.step_m, iterate.step_rad) =
+        Length(summary_.iterates.back().T_target_source, T);
+  }
+  iterate.time_s = std::chrono::duration<double>(Clock::now() - start_).count();
+  summary_.iterates.push_back(iterate);
+  FindEnd(evaluation, matches);
+}
+
+void Loop::FindEnd(const Evaluation& evaluation, const MatchesByMatcher& matches) {
+  const std::vector<Iterate>& iterates = summary_.iterates;
+  const double cost = iterates.back().cost;
+  if (Observed() && !options_.observer({iterates.back(), evaluation, matches})) {
+    end_ = {Termination::kStopped, "The observer ended it."};
+  } else if (options_.max_final_cost > 0 && cost <= options_.max_final_cost) {
+    end_ = {Termination::kCostReached,
+            "The cost is at most " + Number(options_.max_final_cost) + "."};
+  } else if (options_.min_cost_change > 0 && iterates.size() > 1) {
+    const double before = iterates[iterates.size() - 2].cost;
+    if (std::abs(cost - before) < options_.min_cost_change * before) {
+      end_ = {Termination::kCostChange, "The cost changed by less than a share of " +
+                                            Number(options_.min_cost_change) + "."};
+    }
+  }
+}
+
+bool Loop::IsShort(double step_m, double step_rad) const {
+  return step_m < options_.min_step_m && step_rad < options_.min_step_rad;
+}
+
+bool Loop::IsShortStepTo(const SE3d& T) const {
+  const auto [step_m, step_rad] = Length(summary_.iterates.back().T_target_source, T);
+  return IsShort(step_m, step_rad);
+}
+
+bool Loop::LastStepWasShort() const {
+  return summary_.iterates.size() > 1 &&
+         IsShort(summary_.iterates.back().step_m, summary_.iterates.back().step_rad);
+}
+
+MinimizerSummary Loop::End(Termination termination, std::string message) {
+  summary_.termination = termination;
+  summary_.message = std::move(message);
+  return std::move(summary_);
+}
+
+MinimizerSummary Loop::EndShortStep(int rejected) {
+  return rejected == 0
+             ? End(Termination::kConverged, "The step from here is shorter than the limit.")
+             : EndNoDescent();
+}
+
+MinimizerSummary Loop::EndNoCorrespondences() {
+  return End(Termination::kNoCorrespondences, "No pair of points is left after " +
+                                                  std::to_string(summary_.iterates.size()) +
+                                                  " iterates.");
+}
+
+MinimizerSummary Loop::EndFlat() {
+  return End(Termination::kFailure,
+             "Every pair is an outlier under the loss, which is flat there; expected a larger "
+             "scale or a better start.");
+}
+
+MinimizerSummary Loop::EndMaxIterations() {
+  return End(
+      Termination::kMaxIterations,
+      "The limit of " + std::to_string(options_.max_iterations) + " iterations was reached.");
+}
+
+MinimizerSummary Loop::EndNoDescent() {
+  return End(Termination::kNoDescent, "No step lowered the cost any further.");
+}
+
+}  // namespace icpscape::internal
