@@ -81,7 +81,7 @@ TrajectoryPair Associate(const Trajectory& truth, const Trajectory& estimate,
                          double max_time_difference_s) {
   const auto refuse_fewer_than_two = [](std::size_t pairs, const std::string& how) {
     if (pairs < 2) {
-      throw InputError(std::to_string(pairs) + " pairs of poses " + how +
+      throw InputError("pairs of poses " + how + ": " + std::to_string(pairs) +
                        "; expected at least two.");
     }
   };

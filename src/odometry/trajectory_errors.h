@@ -12,8 +12,8 @@ namespace icpscape {
 /// A true and an estimated trajectory of the same body, pose by pose. The two may have different
 /// world frames; only AbsoluteErrors minds, and aligns if told to.
 struct TrajectoryPair {
-  std::vector<SE3d> truth;     ///< T_world_body.
-  std::vector<SE3d> estimate;  ///< T_world_body, as many.
+  std::vector<SE3d> truth;      ///< T_world_body.
+  std::vector<SE3d> estimate;   ///< T_world_body, as many.
   std::vector<double> times_s;  ///< Of both, or empty.
 };
 
@@ -32,16 +32,16 @@ std::vector<double> PathLengths(const std::vector<SE3d>& T_world_body);
 struct SegmentError {
   int first_frame = 0;
   int last_frame = 0;
-  double length_m = 0;          ///< Nominal: 100, 200, ..., 800.
-  double speed_mps = 0;         ///< length_m over the time it took.
-  double translation = 0;       ///< |t(E)| / length_m.
+  double length_m = 0;            ///< Nominal: 100, 200, ..., 800.
+  double speed_mps = 0;           ///< length_m over the time it took.
+  double translation = 0;         ///< |t(E)| / length_m.
   double rotation_rad_per_m = 0;  ///< angle(E) / length_m.
 };
 
 /// What the devkit does: from every tenth frame, for each length, to the first frame that lies
 /// farther than that along the truth. Empty for a path of less than 100 m. Where there are no times
 /// the devkit's count stands: 0.1 s for each frame of the stretch, both ends included. (The devkit
-/// computes in float, and its angle by acos, which cannot tell angles below 3e-4 rad from zero.)
+/// computes in float, and its angle by acos of a trace, which loses angles below 3e-4 rad.)
 std::vector<SegmentError> KittiSegmentErrors(const TrajectoryPair& pair);
 
 inline constexpr double kKittiLengthsM[] = {100, 200, 300, 400, 500, 600, 700, 800};
@@ -95,7 +95,8 @@ PoseErrors RelativeErrors(const TrajectoryPair& pair, int delta);
 struct Statistics {
   double rmse = 0, mean = 0, median = 0, max = 0;
 };
-/// `values` must not be empty (CHECKed). The median of an even number is the mean of the middle two.
+/// `values` must not be empty (CHECKed). The median of an even number is the mean of the middle
+/// two.
 Statistics StatisticsOf(std::vector<double> values);
 
 }  // namespace icpscape

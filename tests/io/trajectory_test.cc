@@ -61,9 +61,10 @@ TEST(Trajectory, ReadsKittiRows) {
 TEST(Trajectory, ReadsTumRowsAndSkipsComments) {
   const TemporaryFolder folder;
   // The same turn by 90 degrees, as a quaternion whose digits were cut.
-  const Trajectory trajectory = ReadTrajectory(folder.Write(
-      "t.txt", "# timestamp tx ty tz qx qy qz qw\n1305031102.175304 1 2 3 0 0 0 1\r\n\n"
-               "  # in between\n1305031102.211214 4 5 6.5 0 0 0.70711 0.70711\n"));
+  const Trajectory trajectory = ReadTrajectory(
+      folder.Write("t.txt",
+                   "# timestamp tx ty tz qx qy qz qw\n1305031102.175304 1 2 3 0 0 0 1\r\n\n"
+                   "  # in between\n1305031102.211214 4 5 6.5 0 0 0.70711 0.70711\n"));
   EXPECT_EQ(trajectory.times_s, (std::vector<double>{1305031102.175304, 1305031102.211214}));
   ASSERT_EQ(trajectory.T_world_body.size(), 2U);
   EXPECT_EQ(trajectory.T_world_body[0].t(), Vec3(1, 2, 3));

@@ -15,9 +15,7 @@ namespace {
 
 constexpr double kDegree = M_PI / 180;
 
-SE3d Yaw(double angle_rad) {
-  return SE3d::Exp((Vec6() << 0, 0, angle_rad, 0, 0, 0).finished());
-}
+SE3d Yaw(double angle_rad) { return SE3d::Exp((Vec6() << 0, 0, angle_rad, 0, 0, 0).finished()); }
 SE3d Forward(double length_m) { return SE3d(Mat3::Identity(), Vec3(length_m, 0, 0)); }
 
 // `count` poses, each the one before moved by `motion`.
