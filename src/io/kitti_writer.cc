@@ -6,8 +6,9 @@
 #include <cstdint>
 #include <fstream>
 
-#include "src/common/text.h"
 #include "src/io/output.h"
+#include "src/io/trajectory.h"
+#include "src/io/transform.h"
 
 namespace icpscape {
 namespace {
@@ -21,17 +22,6 @@ void WriteBinary(const std::filesystem::path& path, const std::vector<T>& values
     out.close();
     return out.good();
   });
-}
-
-std::string Row(const SE3d& T) {
-  std::vector<std::string> numbers;
-  for (int i = 0; i < 3; ++i) {
-    for (int j = 0; j < 3; ++j) {
-      numbers.push_back(Number(T.R()(i, j)));
-    }
-    numbers.push_back(Number(T.t()(i)));
-  }
-  return Join(numbers, " ");
 }
 
 }  // namespace
@@ -58,15 +48,15 @@ void WriteRings(const std::filesystem::path& path, const PointCloud& cloud) {
 
 void WriteKittiPoses(const std::filesystem::path& path, const std::vector<SE3d>& T_world_lidar,
                      const SE3d& Tr) {
-  std::string text;
+  std::vector<SE3d> T_first_camera;
   for (const SE3d& T : T_world_lidar) {
-    text += Row(Tr * T_world_lidar[0].Inverse() * T * Tr.Inverse()) + "\n";
+    T_first_camera.push_back(Tr * T_world_lidar[0].Inverse() * T * Tr.Inverse());
   }
-  WriteTextFile(path, text);
+  WriteKittiTrajectory(path, T_first_camera);
 }
 
 void WriteKittiCalibration(const std::filesystem::path& path, const SE3d& Tr) {
-  WriteTextFile(path, "Tr: " + Row(Tr) + "\n");
+  WriteTextFile(path, "Tr: " + FormatTransformRow(Tr) + "\n");
 }
 
 }  // namespace icpscape

@@ -70,4 +70,15 @@ std::string FormatTransform(const SE3d& T) {
   return out;
 }
 
+std::string FormatTransformRow(const SE3d& T) {
+  std::vector<std::string> numbers;
+  for (int row = 0; row < 3; ++row) {
+    for (int col = 0; col < 3; ++col) {
+      numbers.push_back(Number(T.R()(row, col)));
+    }
+    numbers.push_back(Number(T.t()(row)));
+  }
+  return Join(numbers, " ");
+}
+
 }  // namespace icpscape

@@ -19,6 +19,9 @@ SE3d ReadTransform(const std::filesystem::path& path);
 /// Four rows of four numbers that read back exactly.
 std::string FormatTransform(const SE3d& T);
 
+/// The upper 3x4 as one row of twelve numbers that read back exactly: KITTI's way.
+std::string FormatTransformRow(const SE3d& T);
+
 }  // namespace icpscape
 
 #endif  // ICPSCAPE_SRC_IO_TRANSFORM_H_

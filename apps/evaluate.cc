@@ -1,0 +1,147 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include <gflags/gflags.h>
+
+#include <cmath>
+#include <iostream>
+#include <set>
+
+#include "apps/app.h"
+#include "apps/trajectory_report.h"
+#include "src/common/error.h"
+#include "src/common/text.h"
+#include "src/io/kitti.h"
+#include "src/io/output.h"
+
+DEFINE_string(estimate, "",
+              "Estimated trajectories, separated by commas: KITTI's format (12 columns) or TUM's "
+              "(timestamp tx ty tz qx qy qz qw).");
+DEFINE_string(ground_truth, "", "The true ones, as many, in either format.");
+DEFINE_string(kitti_root, "", "Or: folder of the KITTI poses, ROOT/poses/SS.txt, ...");
+DEFINE_string(sequences, "", "... and the sequences that were estimated, as in 00,07.");
+DEFINE_string(calib, "",
+              "If given, the estimates are poses of the lidar and the truth of the camera: they "
+              "are compared as the camera's, through this calib.txt, one or one per estimate.");
+DEFINE_double(max_time_difference_s, 0.01,
+              "Where both have timestamps, poses are paired whose times differ by at most this "
+              "(s).");
+DEFINE_int32(rpe_frames, 1, "Frames over which the relative pose error is taken.");
+DEFINE_string(out, "out/evaluate", "Folder for the results.");
+
+namespace icpscape {
+namespace {
+
+struct Files {
+  std::vector<std::string> names;
+  std::vector<std::string> estimates;
+  std::vector<std::string> truths;
+  std::vector<std::string> calibrations;  // None, or one each.
+};
+
+// What tables call the estimates: the files' names without folders while that tells them apart.
+std::vector<std::string> NamesOf(const std::vector<std::string>& paths) {
+  std::vector<std::string> names;
+  for (const std::string& path : paths) {
+    names.push_back(std::filesystem::path(path).stem().string());
+  }
+  const bool are_unique = std::set<std::string>(names.begin(), names.end()).size() == names.size();
+  return are_unique ? names : paths;
+}
+
+Files FilesFromFlags() {
+  if (FLAGS_estimate.empty()) {
+    throw UsageError("no --estimate: expected the file of a trajectory, or several.");
+  }
+  const bool from_kitti = !FLAGS_kitti_root.empty();
+  if (from_kitti == !FLAGS_ground_truth.empty()) {
+    throw UsageError(
+        "expected --ground_truth=FILE, or --kitti_root=DIR --sequences=SS, and not both.");
+  }
+  RequireFlag(from_kitti || FLAGS_sequences.empty(), "sequences", FLAGS_sequences,
+              "--kitti_root with it");
+  Files files;
+  files.estimates = Split(FLAGS_estimate);
+  const auto as_many = [&](std::size_t count) { return count == files.estimates.size(); };
+  const std::string expected = "one for each --estimate";
+  if (from_kitti) {
+    files.names = Split(FLAGS_sequences);
+    RequireFlag(as_many(files.names.size()), "sequences", FLAGS_sequences, expected);
+    for (const std::string& sequence : files.names) {
+      files.truths.push_back(
+          (std::filesystem::path(FLAGS_kitti_root) / "poses" / (sequence + ".txt")).string());
+    }
+  } else {
+    files.names = NamesOf(files.estimates);
+    files.truths = Split(FLAGS_ground_truth);
+    RequireFlag(as_many(files.truths.size()), "ground_truth", FLAGS_ground_truth, expected);
+  }
+  files.calibrations = Split(FLAGS_calib);
+  if (files.calibrations.size() == 1) {
+    files.calibrations.resize(files.estimates.size(), files.calibrations[0]);
+  }
+  RequireFlag(files.calibrations.empty() || as_many(files.calibrations.size()), "calib",
+              FLAGS_calib, "one, or " + expected);
+  return files;
+}
+
+NamedTrajectory Load(const Files& files, std::size_t i, Manifest* manifest) {
+  Trajectory estimate = ReadTrajectory(files.estimates[i]);
+  const Trajectory truth = ReadTrajectory(files.truths[i]);
+  manifest->AddInput(files.estimates[i]);
+  manifest->AddInput(files.truths[i]);
+  if (!files.calibrations.empty()) {
+    const SE3d Tr = ReadKittiCalibration(files.calibrations[i]);
+    manifest->AddInput(files.calibrations[i]);
+    for (SE3d& T : estimate.T_world_body) {
+      T = Tr * T * Tr.Inverse();
+    }
+  }
+  NamedTrajectory trajectory;
+  trajectory.name = files.names[i];
+  try {
+    trajectory.pair = Associate(truth, estimate, FLAGS_max_time_difference_s);
+  } catch (const InputError& error) {
+    throw InputError(files.estimates[i] + " and " + files.truths[i] + ": " + error.what());
+  }
+  std::cout << trajectory.name << ": " << trajectory.pair.truth.size() << " pairs of poses ("
+            << estimate.T_world_body.size() << " estimated, " << truth.T_world_body.size()
+            << " true), " << Fixed(PathLengths(trajectory.pair.truth).back(), 1) << " m\n";
+  return trajectory;
+}
+
+void Evaluate() {
+  const Files files = FilesFromFlags();
+  RequireFlag(FLAGS_max_time_difference_s >= 0 && std::isfinite(FLAGS_max_time_difference_s),
+              "max_time_difference_s", Number(FLAGS_max_time_difference_s),
+              "a time of at least 0 s");
+  RequireFlag(FLAGS_rpe_frames >= 1, "rpe_frames", std::to_string(FLAGS_rpe_frames), "at least 1");
+  RequireFlag(!FLAGS_out.empty(), "out", FLAGS_out, "a folder");
+  const std::filesystem::path out = FLAGS_out;
+  PrepareOutputFolder(out);
+  Manifest manifest(AppName());
+  RecordFlags(&manifest);
+  std::vector<NamedTrajectory> trajectories;
+  for (std::size_t i = 0; i < files.estimates.size(); ++i) {
+    trajectories.push_back(Load(files, i, &manifest));
+  }
+  manifest.AddTiming("read");
+  std::cout << std::endl;  // Before printf writes.
+  ReportTrajectoryErrors(trajectories, FLAGS_rpe_frames, out, &manifest);
+  manifest.AddTiming("evaluate");
+  const bool drawn =
+      DrawTrajectories(trajectories, trajectories.size() == 1 ? trajectories[0].name : "", out);
+  manifest.AddTiming("figures");
+  manifest.Write(out / "manifest.json");
+  std::cout << "\nwritten: " << (out / "errors.csv").string()
+            << ", summary.csv, pose_errors.csv, trajectory.csv"
+            << (drawn ? ", trajectory.svg, trajectory.png" : "") << ", manifest.json\n";
+}
+
+}  // namespace
+}  // namespace icpscape
+
+int main(int argc, char** argv) {
+  return icpscape::RunApp(argc, argv,
+                          "measures estimated trajectories against the truth: KITTI's t_err and "
+                          "r_err over 100 to 800 m, ATE and RPE.",
+                          icpscape::Evaluate);
+}

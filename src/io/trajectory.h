@@ -1,0 +1,36 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#ifndef ICPSCAPE_SRC_IO_TRAJECTORY_H_
+#define ICPSCAPE_SRC_IO_TRAJECTORY_H_
+
+#include <filesystem>
+#include <vector>
+
+#include "residuals/lie.h"
+
+namespace icpscape {
+
+/// Poses T_world_body in the order of their frames; body is what the file is about: the left camera
+/// in KITTI's, often the lidar in ours.
+struct Trajectory {
+  std::vector<SE3d> T_world_body;
+  std::vector<double> times_s;  ///< One per pose, increasing; empty where the file has none.
+};
+
+/// Reads either format; the columns of the first row decide:
+///   12, KITTI: the upper 3x4 of T_world_body, row-major; no times;
+///    8, TUM: "timestamp tx ty tz qx qy qz qw", seconds and metres; lines that begin with # are
+///       comments; times must increase.
+/// Throws InputError FILE:LINE where a row has other columns, is no rigid motion or is not finite,
+/// and where there is no pose.
+Trajectory ReadTrajectory(const std::filesystem::path& path);
+
+/// KITTI's format, all poses as they are. Translations read back exactly, rotations to rounding
+/// (they are normalised on reading). Throws InputError where the file cannot be written.
+void WriteKittiTrajectory(const std::filesystem::path& path, const std::vector<SE3d>& T_world_body);
+
+/// TUM's format, as above. The trajectory must have times (CHECKed).
+void WriteTumTrajectory(const std::filesystem::path& path, const Trajectory& trajectory);
+
+}  // namespace icpscape
+
+#endif  // ICPSCAPE_SRC_IO_TRAJECTORY_H_
