@@ -8,6 +8,7 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <cstdio>
 #include <cstring>
 #include <filesystem>
@@ -123,9 +124,17 @@ void RequireFlag(bool good, const std::string& flag, const std::string& value,
   }
 }
 
-void RecordFlags(Manifest* manifest) {
+std::map<std::string, std::string> OwnFlagValues() {
+  std::map<std::string, std::string> values;
   for (const gflags::CommandLineFlagInfo& flag : OwnFlags()) {
-    manifest->SetFlag(flag.name, flag.current_value);
+    values[flag.name] = flag.current_value;
+  }
+  return values;
+}
+
+void RecordFlags(Manifest* manifest) {
+  for (const auto& [name, value] : OwnFlagValues()) {
+    manifest->SetFlag(name, value);
   }
 }
 
@@ -138,7 +147,14 @@ Progress::~Progress() {
 void Progress::Show(int done) {
   if (isatty(STDERR_FILENO) != 0) {
     shown_ = true;
-    std::fprintf(stderr, "\r%d/%d %s", done, total_, unit_.c_str());
+    constexpr int kWidth = 20;
+    const int marks = kWidth * done / std::max(1, total_);
+    const double seconds =
+        std::chrono::duration<double>(std::chrono::steady_clock::now() - start_).count();
+    std::fprintf(stderr, "\r[%s%s] %d/%d %s, %.1f/s, %.0f s left\033[K",
+                 std::string(static_cast<std::size_t>(marks), '#').c_str(),
+                 std::string(static_cast<std::size_t>(kWidth - marks), '-').c_str(), done, total_,
+                 unit_.c_str(), done / seconds, seconds / done * (total_ - done));
     std::fflush(stderr);
   }
 }

@@ -2,7 +2,9 @@
 #ifndef ICPSCAPE_APPS_APP_H_
 #define ICPSCAPE_APPS_APP_H_
 
+#include <chrono>
 #include <functional>
+#include <map>
 #include <string>
 #include <vector>
 
@@ -23,10 +25,14 @@ const std::string& AppName();
 void RequireFlag(bool good, const std::string& flag, const std::string& value,
                  const std::string& expected);
 
-/// Records the effective value of each of this program's flags.
+/// The effective value of each of this program's flags, by name.
+std::map<std::string, std::string> OwnFlagValues();
+
+/// Records them.
 void RecordFlags(Manifest* manifest);
 
-/// "\r 12/100 poses" on stderr while it is a terminal; silent otherwise.
+/// "[###-------] 30/100 poses, 12.1/s, 6 s left" on stderr while it is a terminal; silent
+/// otherwise.
 class Progress {
  public:
   Progress(std::string unit, int total) : unit_(std::move(unit)), total_(total) {}
@@ -39,6 +45,7 @@ class Progress {
   std::string unit_;
   int total_;
   bool shown_ = false;
+  std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
 };
 
 /// Runs tools/SCRIPT (Python with matplotlib) on the arguments. Where that fails there is one

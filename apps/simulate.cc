@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <gflags/gflags.h>
 
-#include <charconv>
 #include <iostream>
 
 #include "apps/app.h"
@@ -11,6 +10,7 @@
 #include "src/common/text.h"
 #include "src/io/kitti.h"
 #include "src/io/manifest.h"
+#include "src/io/scan_sequence.h"
 #include "src/io/sha256.h"
 #include "src/io/transform.h"
 #include "src/simulation/dataset.h"
@@ -34,30 +34,6 @@ DECLARE_int32(seed);
 
 namespace icpscape {
 namespace {
-
-struct FrameRange {
-  int first = 0;
-  int last = -1;  ///< -1: to the end.
-};
-
-FrameRange FramesFromFlags() {
-  if (FLAGS_frames.empty()) {
-    return {};
-  }
-  FrameRange range;
-  const char* const end = FLAGS_frames.data() + FLAGS_frames.size();
-  const auto [colon, error] = std::from_chars(FLAGS_frames.data(), end, range.first);
-  bool good = error == std::errc() && colon != end && *colon == ':';
-  if (good) {
-    const auto [rest, last_error] = std::from_chars(colon + 1, end, range.last);
-    good = last_error == std::errc() && rest == end;
-  }
-  if (!good || range.first < 0 || range.last < range.first) {
-    throw UsageError("--frames=" + FLAGS_frames +
-                     ": expected FIRST:LAST with 0 <= FIRST <= LAST, as in 0:99.");
-  }
-  return range;
-}
 
 // All that a scan depends on besides its index. The program itself belongs to it: while it is being
 // developed, its version does not tell one build from another.
@@ -136,7 +112,7 @@ void Simulate() {
   if (FLAGS_threads < 0 || FLAGS_threads > 1024) {
     throw UsageError("--threads=" + std::to_string(FLAGS_threads) + ": expected 0 (all) to 1024.");
   }
-  const FrameRange frames = FramesFromFlags();
+  const FrameRange frames = FrameRangeFromText(FLAGS_frames);
   LidarFromFlags();
   SeedFromFlags();
   if (drive) {

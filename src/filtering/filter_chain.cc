@@ -43,12 +43,11 @@ FilteredPair ApplyFilters(
           ArtificialBlindSpots(all.source, all.target, options.artificial_blind_spot_m));
   }
   if (options.ego_blind_spot_m > 0) {
-    apply("ego_filter",
-          EgoBlindSpotFilter(all.source, all.target, T_e, options.ego_blind_spot_m));
+    apply("ego_filter", EgoBlindSpotFilter(all.source, all.target, T_e, options.ego_blind_spot_m));
   }
   if (options.octree_voxel_m > 0) {
-    apply("octree_filter", OctreeCorrespondenceFilter(all.source, all.target, T_e,
-                                                      {options.octree_voxel_m}));
+    apply("octree_filter",
+          OctreeCorrespondenceFilter(all.source, all.target, T_e, {options.octree_voxel_m}));
   }
   return all;
 }

@@ -9,8 +9,8 @@
 
 namespace icpscape {
 
-/// Which data filters a pair of scans goes through, the first stage of the paper's chain [paper fig.
-/// 1, tab. 1]: in this order, each off where it is 0.
+/// Which data filters a pair of scans goes through, the first stage of the paper's chain [paper
+/// fig. 1, tab. 1]: in this order, each off where it is 0.
 struct FilterOptions {
   double artificial_blind_spot_m = 0;  ///< Radius; see ArtificialBlindSpots.
   double ego_blind_spot_m = 0;         ///< Radius; see EgoBlindSpotFilter.

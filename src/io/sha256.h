@@ -9,6 +9,8 @@ namespace icpscape {
 
 /// SHA-256 of a file's bytes, in hexadecimal. Throws InputError where it cannot be read.
 std::string Sha256(const std::filesystem::path& path);
+/// The same of a text.
+std::string Sha256OfText(const std::string& text);
 
 }  // namespace icpscape
 

@@ -25,8 +25,8 @@ class AdaptiveGate {
 
   void Add(const SE3d& T_predicted, const SE3d& T_found) {
     const SE3d error = T_predicted.Inverse() * T_found;
-    const double delta = error.t().norm() + 2 * kFarthestRange_m *
-                                                std::sin(error.LogRotation().norm() / 2);
+    const double delta =
+        error.t().norm() + 2 * kFarthestRange_m * std::sin(error.LogRotation().norm() / 2);
     if (delta > kSmallest_m) {
       sum_squared_ += delta * delta;
       ++count_;

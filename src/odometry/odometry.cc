@@ -107,15 +107,14 @@ Odometry::Registration Odometry::Register(const PreparedScan& source, const Prep
   if (options_.filters.Any()) {
     const FilteredPair pair =
         ApplyFilters(source.cloud, target.cloud, T_predicted, options_.filters);
-    registration.Run(ObjectiveSet(pair.source, pair.target,
-                                  source.features.Select(pair.keep_source), options_.metrics,
-                                  objective),
-                     T_predicted, options_);
+    registration.Run(
+        ObjectiveSet(pair.source, pair.target, source.features.Select(pair.keep_source),
+                     options_.metrics, objective),
+        T_predicted, options_);
   } else {
     const SearchableCloud& all = *target.clouds.points;
-    registration.Run(
-        ObjectiveSet(source.clouds, {all, all, all}, options_.metrics, objective), T_predicted,
-        options_);
+    registration.Run(ObjectiveSet(source.clouds, {all, all, all}, options_.metrics, objective),
+                     T_predicted, options_);
   }
   return registration;
 }

@@ -52,10 +52,10 @@ struct FrameResult {
   SE3d motion;
   bool registered = false;  ///< False for the first scan, and where the prediction had to stand in.
   Termination termination = Termination::kFailure;
-  int iterations = 0;  ///< Of all stages.
-  long n = 0;          ///< Pairs of the last stage, at its end.
-  double rmse = 0;     ///< Of the last stage, at its end.
-  double gate_m = 0;   ///< Longest distance of a pair; 0 is no limit.
+  int iterations = 0;          ///< Of all stages.
+  long n = 0;                  ///< Pairs of the last stage, at its end.
+  double rmse = 0;             ///< Of the last stage, at its end.
+  double gate_m = 0;           ///< Longest distance of a pair; 0 is no limit.
   std::size_t points = 0;      ///< After preprocessing.
   std::size_t map_points = 0;  ///< Of the map that it was registered to; 0 without one.
 };

@@ -1,0 +1,252 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include <gflags/gflags.h>
+
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+#include <cstdio>
+#include <iostream>
+#include <optional>
+
+#include "apps/app.h"
+#include "apps/odometry_flags.h"
+#include "apps/run_flags.h"
+#include "apps/sequence_flags.h"
+#include "apps/trajectory_report.h"
+#include "src/common/error.h"
+#include "src/common/text.h"
+#include "src/io/journal.h"
+#include "src/io/output.h"
+#include "src/io/point_files.h"
+#include "src/io/sha256.h"
+#include "src/io/trajectory.h"
+#include "src/odometry/frame_record.h"
+
+DEFINE_bool(restart, false, "Begin anew where an earlier run has left a journal in --out.");
+DEFINE_double(write_map_voxel_m, 0.5,
+              "map.ply has one point per voxel of this size (m) of the whole drive; 0 writes none.");
+
+namespace icpscape {
+namespace {
+
+using Clock = std::chrono::steady_clock;
+constexpr double kDegrees = 180 / M_PI;
+
+double SecondsSince(Clock::time_point start) {
+  return std::chrono::duration<double>(Clock::now() - start).count();
+}
+
+// All that the results depend on besides the scans' bytes, whose hashes are in the records.
+std::string JournalHeader(const ScanSequence& sequence) {
+  std::string header = "icpscape-odometry; version=" + Version();
+  for (const auto& [name, value] : OwnFlagValues()) {
+    if (name != "out" && name != "threads" && name != "restart" && name != "write_map_voxel_m" &&
+        name != "ground_truth") {
+      header += "; " + name + "=" + value;
+    }
+  }
+  return header + "; scans=" + std::to_string(sequence.scans.size());
+}
+
+// Goes through the drive: what the journal has is replayed, the rest is registered and recorded.
+class Run {
+ public:
+  Run(const ScanSequence& sequence, Journal* journal)
+      : sequence_(sequence), journal_(*journal), odometry_(OdometryFromFlags()) {}
+
+  void Go() {
+    const std::size_t known = journal_.records().size();
+    if (known > 0) {
+      std::cout << "journal: " << known << " scans are done, and are replayed" << std::endl;
+    }
+    Progress progress("scans", static_cast<int>(sequence_.scans.size()));
+    for (std::size_t i = 0; i < sequence_.scans.size(); ++i) {
+      if (i < known) {
+        Replay(i);
+      } else {
+        Register(i);
+      }
+      const FrameRecord& record = records_.back();
+      if (map_) {
+        map_->Insert(odometry_.last_scan()->cloud, record.result.T_world_lidar,
+                     static_cast<int>(i));
+      }
+      progress.Show(static_cast<int>(i) + 1);
+    }
+  }
+
+  const std::vector<FrameRecord>& records() const { return records_; }
+  const std::optional<VoxelMap>& map() const { return map_; }
+
+ private:
+  PointCloud Read(std::size_t i) const {
+    DroppedPoints dropped;
+    return ReadPointFile(sequence_.scans[i], &dropped);
+  }
+
+  void Replay(std::size_t i) {
+    const FrameRecord record = ParseFrameRecord(
+        journal_.records()[i], "journal, scan " + sequence_.scans[i].filename().string());
+    if (record.scan_sha256 != Sha256(sequence_.scans[i])) {
+      throw InputError(sequence_.scans[i].string() +
+                       ": is not the scan of the journal; expected it unchanged, or --restart.");
+    }
+    odometry_.Replay(Read(i), record.result);
+    records_.push_back(record);
+  }
+
+  void Register(std::size_t i) {
+    FrameRecord record;
+    const Clock::time_point start = Clock::now();
+    PointCloud scan = Read(i);
+    record.read_s = SecondsSince(start);
+    const Clock::time_point read = Clock::now();
+    record.result = odometry_.Add(std::move(scan));
+    record.odometry_s = SecondsSince(read);
+    record.scan_sha256 = Sha256(sequence_.scans[i]);
+    journal_.Append(FormatFrameRecord(record));
+    records_.push_back(record);
+  }
+
+  const ScanSequence& sequence_;
+  Journal& journal_;
+  Odometry odometry_;
+  std::vector<FrameRecord> records_;
+  std::optional<VoxelMap> map_ = FLAGS_write_map_voxel_m > 0
+                                     ? std::optional<VoxelMap>(FLAGS_write_map_voxel_m)
+                                     : std::nullopt;
+};
+
+void WriteFrames(const ScanSequence& sequence, const std::vector<FrameRecord>& records,
+                 const std::filesystem::path& out) {
+  Table frames({"frame", "scan", "time_s", "registered", "termination", "iterations", "n", "rmse",
+                "gate_m", "points", "map_points", "motion_m", "motion_deg", "x_m", "y_m", "z_m"});
+  // Apart, since no two runs take the same time.
+  Table timings({"frame", "read_s", "odometry_s"});
+  for (std::size_t i = 0; i < records.size(); ++i) {
+    const FrameResult& r = records[i].result;
+    const Vec3& t = r.T_world_lidar.t();
+    frames.AddRow({std::to_string(i), sequence.scans[i].filename().string(),
+                   Number(sequence.times_s[i]), r.registered ? "1" : "0",
+                   i == 0 ? "first" : TerminationName(r.termination), std::to_string(r.iterations),
+                   std::to_string(r.n), Number(r.rmse), Number(r.gate_m), std::to_string(r.points),
+                   std::to_string(r.map_points), Number(r.motion.t().norm()),
+                   Number(r.motion.LogRotation().norm() * kDegrees), Number(t.x()), Number(t.y()),
+                   Number(t.z())});
+    timings.AddRow({std::to_string(i), Number(records[i].read_s), Number(records[i].odometry_s)});
+  }
+  frames.WriteCsv(out / "frames.csv");
+  timings.WriteCsv(out / "timings.csv");
+}
+
+// T_camera as KITTI has it where the camera is known, else the lidar's poses; the first is the
+// identity.
+std::vector<SE3d> KittiPoses(const ScanSequence& sequence, std::vector<SE3d> T_world_lidar) {
+  const SE3d Tr = sequence.T_camera_lidar.value_or(SE3d());
+  const SE3d T_first_world = T_world_lidar.front().Inverse();
+  for (SE3d& T : T_world_lidar) {
+    T = Tr * T_first_world * T * Tr.Inverse();
+  }
+  return T_world_lidar;
+}
+
+std::vector<SE3d> WriteTrajectories(const ScanSequence& sequence,
+                                    const std::vector<FrameRecord>& records,
+                                    const std::filesystem::path& out) {
+  Trajectory trajectory;
+  trajectory.times_s = sequence.times_s;
+  for (const FrameRecord& record : records) {
+    trajectory.T_world_body.push_back(record.result.T_world_lidar);
+  }
+  std::vector<SE3d> kitti = KittiPoses(sequence, trajectory.T_world_body);
+  WriteKittiTrajectory(out / "trajectory_kitti.txt", kitti);
+  WriteTumTrajectory(out / "trajectory_tum.txt", trajectory);
+  return kitti;
+}
+
+void PrintSpeed(const std::vector<FrameRecord>& records, Manifest* manifest) {
+  std::vector<double> seconds;
+  double sum = 0;
+  for (const FrameRecord& record : records) {
+    seconds.push_back(record.read_s + record.odometry_s);
+    sum += seconds.back();
+  }
+  const double mean = sum / static_cast<double>(seconds.size());
+  std::printf("time per scan, reading included: mean %.1f ms (%.1f Hz), longest %.1f ms\n",
+              1e3 * mean, 1 / mean, 1e3 * *std::max_element(seconds.begin(), seconds.end()));
+  manifest->SetResult("mean_s_per_scan", mean);
+}
+
+void PrintEnd(const TrajectoryPair& pair, Manifest* manifest) {
+  const SE3d truth = pair.truth.front().Inverse() * pair.truth.back();
+  const SE3d error = truth.Inverse() * (pair.estimate.front().Inverse() * pair.estimate.back());
+  std::printf("end: %.4f m, %.4f deg off the ground truth after %.1f m\n", error.t().norm(),
+              error.LogRotation().norm() * kDegrees, PathLengths(pair.truth).back());
+  manifest->SetResult("end_off_m", error.t().norm());
+  manifest->SetResult("end_off_deg", error.LogRotation().norm() * kDegrees);
+}
+
+void PrintFailures(const std::vector<FrameRecord>& records, Manifest* manifest) {
+  const auto failures =
+      std::count_if(records.begin() + 1, records.end(),
+                    [](const FrameRecord& record) { return !record.result.registered; });
+  if (failures > 0) {
+    std::cout << failures << " scans could not be registered: the prediction stands in\n";
+  }
+  manifest->SetResult("not_registered", static_cast<double>(failures));
+}
+
+void RunOdometry() {
+  SetDefaultsOfMode();
+  CheckSequenceFlags();
+  OdometryFromFlags();
+  RequireFlag(FLAGS_write_map_voxel_m >= 0 && std::isfinite(FLAGS_write_map_voxel_m),
+              "write_map_voxel_m", Number(FLAGS_write_map_voxel_m), "a length in m, or 0");
+  const std::filesystem::path out = OutputFolder();
+  Manifest manifest(AppName());
+  RecordFlags(&manifest);
+  const ScanSequence sequence = SequenceFromFlags(&manifest);
+  if (FLAGS_restart) {
+    std::filesystem::remove(out / "journal.txt");
+  }
+  Journal journal(out / "journal.txt", JournalHeader(sequence));
+  Run run(sequence, &journal);
+  run.Go();
+  manifest.AddTiming("odometry");
+
+  NamedTrajectory named = {sequence.title, {}};
+  named.pair.estimate = WriteTrajectories(sequence, run.records(), out);
+  named.pair.times_s = sequence.times_are_measured ? sequence.times_s : std::vector<double>();
+  WriteFrames(sequence, run.records(), out);
+  if (run.map()) {
+    WritePly(out / "map.ply", run.map()->Cloud(SE3d()));
+  }
+  PrintFailures(run.records(), &manifest);
+  PrintSpeed(run.records(), &manifest);
+  if (!sequence.T_world_lidar.empty() && sequence.scans.size() > 1) {
+    named.pair.truth = KittiPoses(sequence, sequence.T_world_lidar);
+    PrintEnd(named.pair, &manifest);
+    std::cout << std::endl;  // Before printf writes.
+    ReportTrajectoryErrors({named}, 1, out, &manifest);
+  }
+  const bool drawn = DrawTrajectories({named}, sequence.title + ", " + "odometry", out);
+  manifest.AddTiming("results");
+  manifest.Write(out / "manifest.json");
+  std::cout << "\nwritten: " << (out / "trajectory_kitti.txt").string()
+            << ", trajectory_tum.txt, frames.csv, timings.csv, journal.txt"
+            << (run.map() ? ", map.ply" : "")
+            << (drawn ? ", trajectory.csv, trajectory.svg, trajectory.png" : ", trajectory.csv")
+            << ", manifest.json\n";
+}
+
+}  // namespace
+}  // namespace icpscape
+
+int main(int argc, char** argv) {
+  // One metric, as register; all that are named are minimised together.
+  gflags::SetCommandLineOptionWithMode("metrics", "point_to_plane", gflags::SET_FLAGS_DEFAULT);
+  return icpscape::RunApp(argc, argv,
+                          "estimates the trajectory of a drive from its scans, by any metric, scan "
+                          "to scan or scan to map; goes on where an earlier run was stopped.",
+                          icpscape::RunOdometry);
+}

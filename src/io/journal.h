@@ -1,0 +1,45 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#ifndef ICPSCAPE_SRC_IO_JOURNAL_H_
+#define ICPSCAPE_SRC_IO_JOURNAL_H_
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+namespace icpscape {
+
+/// An append-only file of one-line records, from which a run that was stopped goes on: whatever
+/// ended it, every record that Append returned from is read back. (After a loss of power the system
+/// may have kept fewer; what is missing is the end.)
+///
+/// Each line is a record, a blank and a checksum: the first 16 hexadecimal digits of the SHA-256 of
+/// the line's before (none for the first), a line feed and the record. The first record is the
+/// header: what the others depend on. A torn last line is dropped.
+class Journal {
+ public:
+  /// Opens or creates the file, for this process alone. Throws InputError where it cannot be written,
+  /// is in use, has another header (the message names the first part, separated by "; ", that
+  /// differs), or is damaged before its end.
+  Journal(std::filesystem::path path, const std::string& header);
+  ~Journal();
+  Journal(const Journal&) = delete;
+  Journal& operator=(const Journal&) = delete;
+
+  /// Those after the header, of this run and those before.
+  const std::vector<std::string>& records() const { return records_; }
+
+  /// The record must be without line feeds (CHECKed). Throws InputError where it cannot be written.
+  void Append(const std::string& record);
+
+ private:
+  void Load(const std::string& header);
+
+  std::filesystem::path path_;
+  int file_ = -1;
+  std::string checksum_;  // Of the last line.
+  std::vector<std::string> records_;
+};
+
+}  // namespace icpscape
+
+#endif  // ICPSCAPE_SRC_IO_JOURNAL_H_

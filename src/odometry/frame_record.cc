@@ -1,0 +1,82 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "src/odometry/frame_record.h"
+
+#include <cmath>
+#include <vector>
+
+#include "src/common/error.h"
+#include "src/common/text.h"
+
+namespace icpscape {
+namespace {
+
+// Calls visit(value) for every number of the record, in the order of the line.
+template <class Record, class Visit>
+void ForEachNumber(Record& record, const Visit& visit) {
+  auto& result = record.result;
+  visit(result.registered);
+  visit(result.termination);
+  visit(result.iterations);
+  visit(result.n);
+  visit(result.rmse);
+  visit(result.gate_m);
+  visit(result.points);
+  visit(result.map_points);
+  visit(record.read_s);
+  visit(record.odometry_s);
+}
+
+// Row by row, as the doubles are: nothing is normalised on the way.
+void AddPose(const SE3d& T, std::vector<std::string>* words) {
+  for (int row = 0; row < 3; ++row) {
+    for (int column = 0; column < 4; ++column) {
+      words->push_back(Number(column < 3 ? T.R()(row, column) : T.t()[row]));
+    }
+  }
+}
+
+}  // namespace
+
+std::string FormatFrameRecord(const FrameRecord& record) {
+  std::vector<std::string> words = {record.scan_sha256};
+  ForEachNumber(record,
+                [&](const auto& value) { words.push_back(Number(static_cast<double>(value))); });
+  AddPose(record.result.T_world_lidar, &words);
+  AddPose(record.result.motion, &words);
+  return Join(words, " ");
+}
+
+FrameRecord ParseFrameRecord(const std::string& text, const std::string& place) {
+  const std::vector<std::string> words = Split(text, ' ');
+  std::size_t next = 1;
+  bool good = true;
+  const auto number = [&] {
+    const double value = next < words.size() ? ParseNumber(words[next]) : NAN;
+    good = good && (std::isfinite(value) || (next < words.size() && words[next] == "nan"));
+    ++next;
+    return value;
+  };
+  const auto pose = [&] {
+    Mat3 R;
+    Vec3 t;
+    for (int row = 0; row < 3; ++row) {
+      for (int column = 0; column < 4; ++column) {
+        (column < 3 ? R(row, column) : t[row]) = number();
+      }
+    }
+    return SE3d(R, t);
+  };
+  FrameRecord record;
+  record.scan_sha256 = words.empty() ? "" : words[0];
+  ForEachNumber(record, [&](auto& value) {
+    value = static_cast<std::decay_t<decltype(value)>>(number());
+  });
+  record.result.T_world_lidar = pose();
+  record.result.motion = pose();
+  if (!good || next != words.size()) {
+    throw InputError(place + ": no record of a scan; expected a journal of icpscape-odometry.");
+  }
+  return record;
+}
+
+}  // namespace icpscape
