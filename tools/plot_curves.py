@@ -7,23 +7,9 @@ samples (dots): where they part, pairs are changing from one pose to the next.
 """
 import argparse
 import csv
-import itertools
-import os
 from collections import defaultdict
 
-import matplotlib
-
-matplotlib.use("Agg")
-import matplotlib.pyplot as plt  # noqa: E402
-
-# The paper's colours and line styles; further metrics take the other colours in turn.
-STYLES = {
-    "edge_to_line": ("edge point to edge line", "tab:orange", "--"),
-    "planar_to_patch": ("planar point to planar patch", "tab:green", "-"),
-    "point_to_point": ("point-to-point", "tab:blue", "-"),
-    "point_to_plane": ("point-to-plane", "tab:purple", "--"),
-    "symmetric": ("symmetric objective function", "tab:cyan", "-."),
-}
+from plot_style import LABELS, plt, save, styles_of
 
 
 def read_curves(path):
@@ -36,18 +22,6 @@ def read_curves(path):
     return curves
 
 
-OTHER_COLORS = ("tab:red", "tab:brown", "tab:pink", "tab:olive", "tab:gray")
-
-LABELS = {
-    "rmse": r"RMSE($\epsilon$)",
-    "rms_residual": r"$\sqrt{\Sigma |r|^2 / n}$",
-    "rmse_fixed_n": r"$\sqrt{\epsilon / n(u=1)}$",
-    "epsilon": r"$\epsilon$",
-    "cost": r"cost $\frac{1}{2} \Sigma \rho(|r|^2)$",
-    "inlier_ratio": "inlier ratio",
-}
-
-
 def draw(curves, column, title):
     # The slopes are those of the RMSE.
     rows = 2 if column == "rmse" else 1
@@ -55,10 +29,9 @@ def draw(curves, column, title):
         rows, 1, sharex=True, squeeze=False, figsize=(7.2, 2.2 + 2.1 * rows),
         height_ratios=(3, 1.4)[:rows], layout="constrained")
     top, bottom = panels[0, 0], panels[-1, 0]
-    other_colors = itertools.cycle(OTHER_COLORS)
+    styles = styles_of(curves)
     for metric, curve in curves.items():
-        label, color, style = STYLES.get(metric) or (
-            metric.replace("_", " "), next(other_colors), "-")
+        label, color, style = styles[metric]
         (line,) = top.plot(curve["u"], curve[column], style, color=color, label=label, linewidth=1.6)
         best = min(range(len(curve["u"])), key=lambda i: curve[column][i])
         top.plot(curve["u"][best], curve[column][best], "o", color=line.get_color(), markersize=6,
@@ -100,11 +73,7 @@ def main():
     parser.add_argument("--title", default="")
     arguments = parser.parse_args()
     figure = draw(read_curves(arguments.curves), arguments.column, arguments.title)
-    plt.rcParams["svg.hashsalt"] = "icpscape"  # The same picture is the same file.
-    for extension, options in ((".svg", {"metadata": {"Date": None}}), (".png", {"dpi": 150})):
-        part = arguments.out + ".part" + extension
-        figure.savefig(part, **options)
-        os.replace(part, arguments.out + extension)
+    save(figure, arguments.out)
 
 
 if __name__ == "__main__":
