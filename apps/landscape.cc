@@ -191,7 +191,9 @@ SE3d ReferencePose(const ScanPair& pair, Manifest* manifest) {
 }
 
 // Whether there are figures.
-bool Draw(const std::filesystem::path& out, const std::string& title) {
+bool Draw(const std::filesystem::path& out, const std::string& scans,
+          const std::string& association) {
+  const std::string changed = ChangedFlags();
   const std::string iterates = (out / "iterates.csv").string();
   std::vector<std::string> arguments = {(out / "curves.csv").string(),
                                         "--out",
@@ -199,14 +201,15 @@ bool Draw(const std::filesystem::path& out, const std::string& title) {
                                         "--column",
                                         FLAGS_column,
                                         "--title",
-                                        title};
+                                        scans + "\n" + association + changed};
   if (!FLAGS_iterates) {
     return RunPlotScript("plot_curves.py", arguments);
   }
   arguments.insert(arguments.end(), {"--iterates", iterates});
   return RunPlotScript("plot_curves.py", arguments) &&
-         RunPlotScript("plot_iterations.py", {iterates, "--out", (out / "iterations").string(),
-                                              "--column", FLAGS_column, "--title", title});
+         RunPlotScript("plot_iterations.py",
+                       {iterates, "--out", (out / "iterations").string(), "--column", FLAGS_column,
+                        "--title", scans + changed});
 }
 
 void Landscape() {
@@ -247,7 +250,7 @@ void Landscape() {
                    options, out, &manifest);
     manifest.AddTiming("iterates");
   }
-  const bool drawn = Draw(out, pair.title + "\n" + association + ChangedFlags());
+  const bool drawn = Draw(out, pair.title, association);
   manifest.AddTiming("figures");
   manifest.Write(out / "manifest.json");
   std::cout << "time: " << manifest.TimingsText() << '\n';

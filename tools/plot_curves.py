@@ -35,13 +35,15 @@ def draw_values(axes, curves, column, styles):
     axes.set_ylabel(LABELS[column])
 
 
-def draw_slopes(axes, curves, styles):
+def draw_slopes(axes, curves, iterates, styles):
     for metric, curve in curves.items():
         _, color, style = styles[metric]
         axes.plot(curve["u"], curve["slope_analytic"], style, color=color, linewidth=1.2)
         axes.plot(curve["u"], curve["slope_numeric"], ".", color=color, markersize=3)
     axes.axhline(0, color="0.4", linewidth=0.8)
     axes.set_ylabel("dRMSE/du")
+    for metric, steps in iterates.items():  # Where the gradient is to be zero.
+        draw_end(axes, steps["u"][-1], 0, styles[metric][1])
     axes.plot([], [], "k-", linewidth=1.2, label="from the gradient")
     axes.plot([], [], "k.", markersize=3, label="from the samples")
     axes.legend(frameon=False, fontsize=8, ncol=2, loc="upper left")
@@ -54,8 +56,12 @@ def draw_iterates(axes, iterates, values_of, styles):
         values = values_of(steps)
         axes.plot(steps["u"], values, "-o", color=color, linewidth=0.7, markersize=3.5,
                   markeredgecolor="black", markeredgewidth=0.3, zorder=3)
-        axes.plot(steps["u"][-1], values[-1], "D", color=color, markersize=7,
-                  markeredgecolor="black", markeredgewidth=0.9, zorder=4)
+        draw_end(axes, steps["u"][-1], values[-1], color)
+
+
+def draw_end(axes, u, value, color):
+    axes.plot(u, value, "D", color=color, markersize=7, markeredgecolor="black",
+              markeredgewidth=0.9, zorder=4)
 
 
 def draw(curves, iterates, column, title):
@@ -76,7 +82,7 @@ def draw(curves, iterates, column, title):
         panels[1].set_ylim(bottom=-0.05 * panels[1].get_ylim()[1])  # The start is at 0: room for it.
         panels[1].set_ylabel("iterates: off path (cm)")
     if column == "rmse":
-        draw_slopes(panels[-1], curves, styles)
+        draw_slopes(panels[-1], curves, iterates, styles)
     low, high = min(c["u"][0] for c in curves.values()), max(c["u"][-1] for c in curves.values())
     for axes in panels:
         axes.set_xlim(low, high)
@@ -84,6 +90,7 @@ def draw(curves, iterates, column, title):
         for side in ("top", "right"):
             axes.spines[side].set_visible(False)
     top.set_title(title, fontsize=11, parse_math=False)
+    figure.align_ylabels()
     panels[-1].set_xlabel("Interpolation parameter u  (0: start, 1: reference)")
     if iterates:
         top.plot([], [], "-o", color="0.5", linewidth=0.7, markersize=3.5, label="iterates")

@@ -65,6 +65,33 @@ TEST(Iterates, RunFromTheStartToTheReferenceAndAreThoseOfRegister) {
   EXPECT_THAT(ReadFile(landscape.path() / "landscape.svg"), HasSubstr("off path"));
 }
 
+// In traffic pairs change along the path: the solver ends where the gradient of its pairs vanishes,
+// and not where the curve is lowest (docs/experiments.md).
+TEST(Iterates, EndWhereTheGradientVanishesAndNotAtTheCurvesMinimum) {
+  const TemporaryFolder out;
+  ASSERT_EQ(RunProgram("landscape",
+                       {"--scene=highway_overtaking", "--metrics=point_to_plane", "--iterates",
+                        "--u_min=0", "--u_max=1", "--samples=41", "--out=" + out.path().string()})
+                .code,
+            0);
+  const double end = std::stod(ReadCsv((out.path() / "iterates.csv").string()).back().at("u"));
+  double zero_of_slope = -1, argmin = -1, least = 1e9, slope_before = 0;
+  for (const auto& row : ReadCsv((out.path() / "curves.csv").string())) {
+    const double u = std::stod(row.at("u"));
+    const double slope = std::stod(row.at("slope_analytic"));
+    if (slope_before < 0 && slope >= 0 && u > 0.1) {
+      zero_of_slope = u;
+    }
+    slope_before = slope;
+    if (std::stod(row.at("rmse")) < least) {
+      least = std::stod(row.at("rmse"));
+      argmin = u;
+    }
+  }
+  EXPECT_NEAR(end, zero_of_slope, 0.05);
+  EXPECT_GT(end - argmin, 0.15);
+}
+
 TEST(Iterates, LeaveNothingForARunWithoutThem) {
   const TemporaryFolder out;
   ASSERT_EQ(RunProgram("landscape", Turn(out, {"--samples=2", "--iterates"})).code, 0);
