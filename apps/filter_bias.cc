@@ -12,6 +12,7 @@
 #include "apps/pair_flags.h"
 #include "src/common/error.h"
 #include "src/common/text.h"
+#include "src/filtering/filter_chain.h"
 #include "src/filtering/filter_statistics.h"
 #include "src/filtering/octree_correspondence_filter.h"
 #include "src/io/output.h"
@@ -28,14 +29,13 @@ namespace icpscape {
 namespace {
 
 ScanPair FilteredPairOf(const ScanPair& pair, const SE3d& T_estimate) {
+  FilterOptions octree;
+  octree.octree_voxel_m = FLAGS_octree_voxel_m;
+  FilteredPair filtered = ApplyFilters(pair.source, pair.target, T_estimate, octree);
   ScanPair result = pair;
-  const FilteredPair filtered =
-      OctreeCorrespondenceFilter(pair.source, pair.target, T_estimate, {FLAGS_octree_voxel_m});
-  if (filtered.source.empty() || filtered.target.empty()) {
-    throw ComputationError("octree_filter: no point is left; expected some to agree.");
-  }
-  result.KeepSource(filtered.keep_source);
-  result.target = filtered.target;
+  result.features = pair.features.Select(filtered.keep_source);
+  result.source = std::move(filtered.source);
+  result.target = std::move(filtered.target);
   return result;
 }
 

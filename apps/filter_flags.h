@@ -2,19 +2,12 @@
 #ifndef ICPSCAPE_APPS_FILTER_FLAGS_H_
 #define ICPSCAPE_APPS_FILTER_FLAGS_H_
 
-#include "apps/pair_flags.h"
-#include "src/io/manifest.h"
+#include "src/filtering/filter_chain.h"
 
 namespace icpscape {
 
-/// Refuses what can be seen to be wrong before any file is read. Throws UsageError.
-void CheckFilterFlags();
-
-/// Applies the data filters of the flags to the pair, once, before anything else [the first stage
-/// of the paper's chain]: artificial blind spot, ego blind spot filter, Octree Correspondence
-/// Filter, in this order. Normals and features were computed before and stay with their points.
-/// Prints and records what is kept. Throws ComputationError where nothing is.
-void FilterPair(ScanPair* pair, Manifest* manifest);
+/// --artificial_blind_spot_m, --ego_filter_m and --octree_voxel_m. Throws UsageError.
+FilterOptions FiltersFromFlags();
 
 }  // namespace icpscape
 

@@ -8,10 +8,10 @@
 #include <iostream>
 
 #include "apps/app.h"
-#include "apps/filter_flags.h"
 #include "apps/iterates.h"
 #include "apps/minimizer_flags.h"
 #include "apps/objective_flags.h"
+#include "apps/pair_filters.h"
 #include "apps/pair_flags.h"
 #include "residuals/registry.h"
 #include "src/common/error.h"

@@ -8,7 +8,7 @@
 
 #include "apps/app.h"
 #include "apps/objective_flags.h"
-#include "apps/pair_flags.h"
+#include "apps/run_flags.h"
 #include "src/common/error.h"
 #include "src/common/text.h"
 

@@ -6,7 +6,7 @@
 #include <cmath>
 
 #include "apps/app.h"
-#include "apps/pair_flags.h"
+#include "apps/run_flags.h"
 #include "src/common/text.h"
 #include "src/objective/loss.h"
 

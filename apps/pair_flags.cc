@@ -12,6 +12,7 @@
 #include "apps/app.h"
 #include "apps/lidar_flags.h"
 #include "apps/objective_flags.h"
+#include "apps/preprocessing_flags.h"
 #include "residuals/correspondence.h"
 #include "src/cloud/normals.h"
 #include "src/cloud/rings.h"
@@ -36,21 +37,11 @@ DEFINE_int32(target_frame, -1, "KITTI scan to register to; -1 is the one before 
 DEFINE_string(source, "", "Source cloud (.bin, .pcd or .ply), instead of --kitti_root.");
 DEFINE_string(target, "", "Target cloud, with --source.");
 DEFINE_string(ground_truth, "", "Text file of the true 4x4 T_target_source, with --source.");
-DEFINE_double(elevation_correction_deg, 0,
-              "Turn KITTI's points up by this angle (degrees); 0.205 is in use for the HDL-64.");
-DEFINE_double(
-    voxel_m, 0,
-    "If positive: take the centroids of the points in voxels of this size (m) as the scans, "
-    "before normals and filters; not with metrics of edge and planar points.");
-DEFINE_int32(normal_neighbors, 20, "Neighbours of a normal, the point itself included.");
-DEFINE_double(normal_radius_m, 0, "If positive: all points within this radius instead (m).");
 DEFINE_bool(reverse, false, "Swap source and target, and invert what is known about their motion.");
 DEFINE_string(
     initial, "identity",
     "Pose at u = 0 and start of register: identity (paper), previous_motion, or the path of a "
     "text file of the 4x4 T_target_source.");
-DEFINE_int32(threads, 0, "Threads; 0 is all of the machine. Results do not depend on it.");
-DEFINE_string(out, "out", "Folder for the results.");
 
 namespace icpscape {
 namespace {
@@ -142,11 +133,11 @@ SE3d InitialPose(const ScanPair& pair, Manifest* manifest) {
   return ReadTransform(FLAGS_initial);
 }
 
-void ThinByVoxels(ScanPair* pair, Manifest* manifest) {
+void ThinByVoxels(double voxel_m, ScanPair* pair, Manifest* manifest) {
   for (const auto& [role, cloud] :
        {std::pair("source", &pair->source), std::pair("target", &pair->target)}) {
     const std::size_t before = cloud->size();
-    *cloud = VoxelFilter(*cloud, FLAGS_voxel_m);
+    *cloud = VoxelFilter(*cloud, voxel_m);
     std::cout << "voxel_filter: leaves " << cloud->size() << " of the " << role << "'s " << before
               << " points\n";
     manifest->SetResult(std::string("voxel_filter_") + role + "_points",
@@ -156,8 +147,7 @@ void ThinByVoxels(ScanPair* pair, Manifest* manifest) {
 }
 
 // Before any filter: a scan line with holes has other neighbours.
-void AddFeatures(ScanPair* pair, Manifest* manifest) {
-  const FeatureOptions options = FeaturesFromFlags();
+void AddFeatures(const FeatureOptions& options, ScanPair* pair, Manifest* manifest) {
   if (options.smoothness.neighborhood == SmoothnessNeighborhood::kRing ||
       options.caps.regions_per_ring > 0) {
     RecoverRings(&pair->source);
@@ -169,10 +159,7 @@ void AddFeatures(ScanPair* pair, Manifest* manifest) {
   manifest->SetResult("planar_points", static_cast<double>(pair->features.num_planar));
 }
 
-void AddNormals(const std::string& role, PointCloud* cloud) {
-  NeighborhoodOptions options;
-  options.num_neighbors = FLAGS_normal_neighbors;
-  options.radius_m = FLAGS_normal_radius_m;
+void AddNormals(const std::string& role, const NeighborhoodOptions& options, PointCloud* cloud) {
   const std::size_t without = EstimateNormals(options, ThreadsFromFlags(), cloud);
   if (without > 0) {
     std::cout << role << ": " << without << " points have no normal\n";
@@ -220,33 +207,8 @@ void CheckPairFlags(const std::vector<std::string>& metrics, bool needs_ground_t
         "icpscape-register writes one that can stand in).");
   }
   SeedFromFlags();
-  RequireFlag(FLAGS_normal_neighbors >= 3 && FLAGS_normal_neighbors <= 1000, "normal_neighbors",
-              std::to_string(FLAGS_normal_neighbors), "at least 3, at most 1000");
-  RequireFlag(FLAGS_normal_radius_m >= 0 && std::isfinite(FLAGS_normal_radius_m), "normal_radius_m",
-              Number(FLAGS_normal_radius_m), "a length in metres, or 0");
-  RequireFlag(std::abs(FLAGS_elevation_correction_deg) <= 5, "elevation_correction_deg",
-              Number(FLAGS_elevation_correction_deg), "an angle within 5 degrees");
-  RequireFlag(FLAGS_voxel_m >= 0 && std::isfinite(FLAGS_voxel_m), "voxel_m", Number(FLAGS_voxel_m),
-              "a length in m, or 0");
-  const auto of_features = std::find_if(metrics.begin(), metrics.end(), NeedsFeatures);
-  RequireFlag(FLAGS_voxel_m == 0 || of_features == metrics.end(), "voxel_m", Number(FLAGS_voxel_m),
-              "0 with " + (of_features == metrics.end() ? "" : *of_features) +
-                  ", whose edge and planar points are those of whole scan lines");
-  RequireFlag(FLAGS_threads >= 0 && FLAGS_threads <= 1024, "threads", std::to_string(FLAGS_threads),
-              "0 (all) to 1024");
-}
-
-void ScanPair::KeepSource(const std::vector<char>& keep) {
-  source = source.Select(keep);
-  for (std::vector<char>* mask : {&features.edge, &features.planar}) {
-    std::size_t kept = 0;
-    for (std::size_t i = 0; i < mask->size(); ++i) {
-      if (keep[i] != 0) {
-        (*mask)[kept++] = (*mask)[i];
-      }
-    }
-    mask->resize(kept);
-  }
+  PreprocessingFromFlags(metrics);
+  ThreadsFromFlags();
 }
 
 ScanPair LoadPair(const std::vector<std::string>& metrics, Manifest* manifest) {
@@ -262,11 +224,12 @@ ScanPair LoadPair(const std::vector<std::string>& metrics, Manifest* manifest) {
     Reverse(&pair);
   }
   pair.T_initial = InitialPose(pair, manifest);
-  CorrectElevation(FLAGS_elevation_correction_deg, &pair.source);
-  CorrectElevation(FLAGS_elevation_correction_deg, &pair.target);
+  const PreprocessingOptions options = PreprocessingFromFlags(metrics);
+  CorrectElevation(options.elevation_correction_deg, &pair.source);
+  CorrectElevation(options.elevation_correction_deg, &pair.target);
   manifest->AddTiming("read");
-  if (FLAGS_voxel_m > 0) {
-    ThinByVoxels(&pair, manifest);
+  if (options.voxel_m > 0) {
+    ThinByVoxels(options.voxel_m, &pair, manifest);
   }
   // The ground-truth check is point-to-plane.
   unsigned needs = pair.T_ground_truth ? static_cast<unsigned>(kTargetNormal) : 0U;
@@ -279,13 +242,13 @@ ScanPair LoadPair(const std::vector<std::string>& metrics, Manifest* manifest) {
     features |= NeedsFeatures(metric);
   }
   if ((needs & kSourceNormal) != 0) {
-    AddNormals("source", &pair.source);
+    AddNormals("source", options.normals, &pair.source);
   }
   if ((needs & kTargetNormal) != 0) {
-    AddNormals("target", &pair.target);
+    AddNormals("target", options.normals, &pair.target);
   }
   if (features) {
-    AddFeatures(&pair, manifest);
+    AddFeatures(options.features, &pair, manifest);
   }
   manifest->AddTiming("normals_and_features");
   return pair;
@@ -316,16 +279,6 @@ std::optional<GroundTruthCheck> GroundTruthCheckOf(const ScanPair& pair, bool ne
     std::cout << "ground-truth check: without an answer (" << error.what() << ")\n";
     return std::nullopt;
   }
-}
-
-int ThreadsFromFlags() { return FLAGS_threads > 0 ? FLAGS_threads : HardwareThreads(); }
-
-std::filesystem::path OutputFolder() {
-  RequireFlag(!FLAGS_out.empty(), "out", FLAGS_out, "a folder");
-  PrepareOutputFolder(FLAGS_out);
-  // Written last: a folder with a manifest is a finished run.
-  std::filesystem::remove(std::filesystem::path(FLAGS_out) / "manifest.json");
-  return FLAGS_out;
 }
 
 }  // namespace icpscape

@@ -2,11 +2,11 @@
 #ifndef ICPSCAPE_APPS_PAIR_FLAGS_H_
 #define ICPSCAPE_APPS_PAIR_FLAGS_H_
 
-#include <filesystem>
 #include <optional>
 #include <string>
 #include <vector>
 
+#include "apps/run_flags.h"
 #include "src/cloud/features.h"
 #include "src/cloud/point_cloud.h"
 #include "src/io/manifest.h"
@@ -24,9 +24,6 @@ struct ScanPair {
   SE3d T_initial;                      ///< Pose at u = 0, and where register starts.
   Features features;                   ///< Of the source, where a metric needs them.
   std::string title;                   ///< For figures: "KITTI 00, scan 95 to 94".
-
-  /// Keeps these points of the source and what is known about them. One entry per point.
-  void KeepSource(const std::vector<char>& keep);
 };
 
 /// Refuses what can be seen to be wrong before any file is read, also where one of the metrics
@@ -45,10 +42,6 @@ ScanPair LoadPair(const std::vector<std::string>& metrics, Manifest* manifest);
 /// returns nothing.
 std::optional<GroundTruthCheck> GroundTruthCheckOf(const ScanPair& pair, bool needed,
                                                    Manifest* manifest);
-
-int ThreadsFromFlags();
-/// --out, created and proved writable. Throws InputError.
-std::filesystem::path OutputFolder();
 
 }  // namespace icpscape
 

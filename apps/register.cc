@@ -8,9 +8,9 @@
 #include <optional>
 
 #include "apps/app.h"
-#include "apps/filter_flags.h"
 #include "apps/minimizer_flags.h"
 #include "apps/objective_flags.h"
+#include "apps/pair_filters.h"
 #include "apps/pair_flags.h"
 #include "src/common/error.h"
 #include "src/common/text.h"

@@ -111,6 +111,22 @@ FeatureOptions ConventionalFeatureOptions(SmoothnessFormula formula) {
   return options;
 }
 
+Features Features::Select(const std::vector<char>& keep) const {
+  Features selected;
+  const auto select = [&](const std::vector<char>& from, std::vector<char>* to) {
+    for (std::size_t i = 0; i < from.size(); ++i) {
+      if (keep[i] != 0) {
+        to->push_back(from[i]);
+      }
+    }
+  };
+  select(edge, &selected.edge);
+  select(planar, &selected.planar);
+  selected.num_edge = Count(selected.edge);
+  selected.num_planar = Count(selected.planar);
+  return selected;
+}
+
 Features ExtractFeatures(const PointCloud& cloud, const FeatureOptions& options, int threads) {
   Check(options);
   const std::vector<double> smoothness = ComputeSmoothness(cloud, options.smoothness, threads);

@@ -47,6 +47,10 @@ struct Features {
   std::vector<char> planar;
   std::size_t num_edge = 0;
   std::size_t num_planar = 0;
+
+  /// Of the points i with keep[i] != 0, in order. One entry per point, unless there are none at
+  /// all.
+  Features Select(const std::vector<char>& keep) const;
 };
 
 /// Edge and planar points [paper sec. 2.4 and 4.2]. Points whose s_i is NaN are neither. Fewer than

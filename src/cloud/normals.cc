@@ -5,7 +5,6 @@
 #include <limits>
 
 #include "src/common/parallel.h"
-#include "src/neighbors/neighbor_search.h"
 
 namespace icpscape {
 namespace {
@@ -13,9 +12,8 @@ namespace {
 // Calls use(order, neighborhoods) for part after part of the cloud, from many threads: entry k of
 // the neighbourhoods, with centred products, is that of point order[k].
 template <class Use>
-void ForEachNeighborhoods(const PointCloud& cloud, const NeighborhoodOptions& options, int threads,
-                          const Use& use) {
-  const NeighborSearch search(cloud.View(), threads);
+void ForEachNeighborhoods(const NeighborSearch& search, const NeighborhoodOptions& options,
+                          int threads, const Use& use) {
   ForEachPart(search.Order().size(), threads, [&](std::size_t begin, std::size_t end) {
     thread_local Neighborhoods neighborhoods;
     const PointsView queries = search.OrderedPoints().Slice(begin, end);
@@ -37,7 +35,7 @@ std::vector<Eigen::Matrix3d> EstimateCovariances(const PointCloud& cloud,
                                                  const NeighborhoodOptions& options, int threads) {
   std::vector<Eigen::Matrix3d> covariances(
       cloud.size(), Mat3::Constant(std::numeric_limits<double>::quiet_NaN()));
-  ForEachNeighborhoods(cloud, options, threads,
+  ForEachNeighborhoods(NeighborSearch(cloud.View(), threads), options, threads,
                        [&](const std::int32_t* order, const Neighborhoods& neighborhoods) {
                          for (std::size_t k = 0; k < neighborhoods.size(); ++k) {
                            if (neighborhoods.count[k] >= kFewestNeighbors) {
@@ -50,9 +48,14 @@ std::vector<Eigen::Matrix3d> EstimateCovariances(const PointCloud& cloud,
 }
 
 std::size_t EstimateNormals(const NeighborhoodOptions& options, int threads, PointCloud* cloud) {
+  return EstimateNormals(NeighborSearch(cloud->View(), threads), options, threads, cloud);
+}
+
+std::size_t EstimateNormals(const NeighborSearch& search, const NeighborhoodOptions& options,
+                            int threads, PointCloud* cloud) {
   const std::size_t size = cloud->size();
   std::vector<float> nx(size), ny(size), nz(size);
-  ForEachNeighborhoods(*cloud, options, threads,
+  ForEachNeighborhoods(search, options, threads,
                        [&](const std::int32_t* order, const Neighborhoods& neighborhoods) {
                          thread_local PrincipalAxes axes;
                          axes.Compute(neighborhoods);

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "src/cloud/point_cloud.h"
+#include "src/neighbors/neighbor_search.h"
 
 namespace icpscape {
 
@@ -28,6 +29,10 @@ std::vector<Eigen::Matrix3d> EstimateCovariances(const PointCloud& cloud,
 /// points, or its points all lie on one line, there is no normal and (0, 0, 0) is stored. Returns
 /// the number of points without a normal.
 std::size_t EstimateNormals(const NeighborhoodOptions& options, int threads, PointCloud* cloud);
+
+/// The same with a search over the cloud's points that is there already.
+std::size_t EstimateNormals(const NeighborSearch& search, const NeighborhoodOptions& options,
+                            int threads, PointCloud* cloud);
 
 }  // namespace icpscape
 

@@ -1,10 +1,15 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "src/cloud/searchable_cloud.h"
 
+#include <utility>
+
 namespace icpscape {
 
 SearchableCloud::SearchableCloud(const PointCloud& cloud, int threads)
-    : cloud_(&cloud), search_(cloud.View(), threads) {
+    : SearchableCloud(cloud, NeighborSearch(cloud.View(), threads)) {}
+
+SearchableCloud::SearchableCloud(const PointCloud& cloud, NeighborSearch search)
+    : cloud_(&cloud), search_(std::move(search)) {
   const std::vector<std::int32_t>& order = search_.Order();
   auto shared = std::make_shared<Shared>();
   shared->place.assign(cloud.size(), -1);

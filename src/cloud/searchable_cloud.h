@@ -19,6 +19,9 @@ class SearchableCloud {
   /// this object and its copies, unchanged.
   SearchableCloud(const PointCloud& cloud, int threads = 1);  // NOLINT(google-explicit-constructor)
 
+  /// With a search over the cloud's points that is there already.
+  SearchableCloud(const PointCloud& cloud, NeighborSearch search);
+
   const PointCloud& cloud() const { return *cloud_; }
   const NeighborSearch& search() const { return search_; }
   /// The points and their normals in the order of search().Order(), padded: what is near in space

@@ -79,8 +79,8 @@ void Loop::FindEnd(const Evaluation& evaluation, const MatchesByMatcher& matches
   } else if (options_.min_cost_change > 0 && iterates.size() > 1) {
     const double before = iterates[iterates.size() - 2].cost;
     if (std::abs(cost - before) < options_.min_cost_change * before) {
-      end_ = {Termination::kCostChange, "The cost changed by less than a share of " +
-                                            Number(options_.min_cost_change) + "."};
+      end_ = {Termination::kCostChange,
+              "The cost changed by less than a share of " + Number(options_.min_cost_change) + "."};
     }
   }
 }
@@ -112,9 +112,9 @@ MinimizerSummary Loop::EndShortStep(int rejected) {
 }
 
 MinimizerSummary Loop::EndNoCorrespondences() {
-  return End(Termination::kNoCorrespondences, "No pair of points is left after " +
-                                                  std::to_string(summary_.iterates.size()) +
-                                                  " iterates.");
+  return End(
+      Termination::kNoCorrespondences,
+      "No pair of points is left after " + std::to_string(summary_.iterates.size()) + " iterates.");
 }
 
 MinimizerSummary Loop::EndFlat() {

@@ -1,20 +1,58 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "src/objective/objective_set.h"
 
+#include <glog/logging.h>
+
 #include "src/common/error.h"
 
 namespace icpscape {
+namespace {
 
-bool NeedsFeatures(const std::string& metric) {
-  return (MetricFunctionsOf(metric).needs & (kTargetLine | kTargetPatch)) != 0;
+bool NeedsLine(const std::string& metric) {
+  return (MetricFunctionsOf(metric).needs & kTargetLine) != 0;
 }
+bool NeedsPatch(const std::string& metric) {
+  return (MetricFunctionsOf(metric).needs & kTargetPatch) != 0;
+}
+
+}  // namespace
+
+bool NeedsFeatures(const std::string& metric) { return NeedsLine(metric) || NeedsPatch(metric); }
 
 ObjectiveSet::ObjectiveSet(const PointCloud& source, const PointCloud& target,
                            const Features& features, const std::vector<std::string>& metrics,
                            const ObjectiveSetOptions& options) {
-  const SearchableCloud searchable_target(target, options.threads);
+  const SearchableCloud all(target, options.threads);
+  MetricClouds sources;
   for (const std::string& metric : metrics) {
-    const Matcher& matcher = MatcherFor(metric, source, searchable_target, features, options);
+    if (NeedsLine(metric)) {
+      if (!edges_) {
+        edges_ = std::make_unique<PointCloud>(source.Select(features.edge));
+        sources.edges.emplace(*edges_, options.threads);
+      }
+    } else if (NeedsPatch(metric)) {
+      if (!planar_) {
+        planar_ = std::make_unique<PointCloud>(source.Select(features.planar));
+        sources.planar.emplace(*planar_, options.threads);
+      }
+    } else if (!sources.points) {
+      sources.points.emplace(source, options.threads);
+    }
+  }
+  AddObjectives(sources, {all, all, all}, metrics, options);
+}
+
+ObjectiveSet::ObjectiveSet(const MetricClouds& source, const MetricClouds& target,
+                           const std::vector<std::string>& metrics,
+                           const ObjectiveSetOptions& options) {
+  AddObjectives(source, target, metrics, options);
+}
+
+void ObjectiveSet::AddObjectives(const MetricClouds& source, const MetricClouds& target,
+                                 const std::vector<std::string>& metrics,
+                                 const ObjectiveSetOptions& options) {
+  for (const std::string& metric : metrics) {
+    const Matcher& matcher = MatcherFor(metric, source, target, options);
     if (matcher.source().empty()) {
       throw ComputationError(metric + ": no source point is left for it; expected at least one.");
     }
@@ -22,29 +60,29 @@ ObjectiveSet::ObjectiveSet(const PointCloud& source, const PointCloud& target,
   }
 }
 
-const Matcher& ObjectiveSet::MatcherFor(const std::string& metric, const PointCloud& source,
-                                        const SearchableCloud& target, const Features& features,
+const Matcher& ObjectiveSet::MatcherFor(const std::string& metric, const MetricClouds& source,
+                                        const MetricClouds& target,
                                         const ObjectiveSetOptions& options) {
-  const unsigned needs = MetricFunctionsOf(metric).needs;
-  if ((needs & kTargetLine) != 0) {
+  if (NeedsLine(metric)) {
+    CHECK(source.edges && target.edges) << metric << " needs clouds of edges";
     if (!lines_) {
-      edges_ = std::make_unique<PointCloud>(source.Select(features.edge));
-      lines_ = std::make_unique<LocalFitMatcher>(LocalFitMatcher::Shape::kLine, *edges_, target,
-                                                 options.line);
+      lines_ = std::make_unique<LocalFitMatcher>(LocalFitMatcher::Shape::kLine, *source.edges,
+                                                 *target.edges, options.line);
     }
     return *lines_;
   }
-  if ((needs & kTargetPatch) != 0) {
+  if (NeedsPatch(metric)) {
+    CHECK(source.planar && target.planar) << metric << " needs clouds of planar points";
     if (!patches_) {
-      planar_ = std::make_unique<PointCloud>(source.Select(features.planar));
-      patches_ = std::make_unique<LocalFitMatcher>(LocalFitMatcher::Shape::kPatch, *planar_, target,
-                                                   options.patch);
+      patches_ = std::make_unique<LocalFitMatcher>(LocalFitMatcher::Shape::kPatch, *source.planar,
+                                                   *target.planar, options.patch);
     }
     return *patches_;
   }
+  CHECK(source.points && target.points) << metric << " needs clouds of points";
   if (!points_) {
-    points_ = std::make_unique<ClosestPointMatcher>(SearchableCloud(source, options.threads),
-                                                    target, options.matching);
+    points_ =
+        std::make_unique<ClosestPointMatcher>(*source.points, *target.points, options.matching);
   }
   return *points_;
 }

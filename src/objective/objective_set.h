@@ -3,6 +3,7 @@
 #define ICPSCAPE_SRC_OBJECTIVE_OBJECTIVE_SET_H_
 
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -25,6 +26,14 @@ struct ObjectiveSetOptions {
   int threads = 1;  ///< To build the searches; results do not depend on it.
 };
 
+/// The clouds that metrics of each kind work on: of a source those whose points are matched, of a
+/// target those that are searched. Only what the metrics need must be there.
+struct MetricClouds {
+  std::optional<SearchableCloud> points;  ///< Closest-point metrics.
+  std::optional<SearchableCloud> edges;   ///< Edge metrics.
+  std::optional<SearchableCloud> planar;  ///< Planar metrics.
+};
+
 /// The objectives of several metrics over one pair of scans, with the matchers that they need:
 /// closest points for all source points, lines for its edge points and patches for its planar ones.
 /// Metrics of a kind share a matcher, and all matchers the search over the target.
@@ -36,12 +45,18 @@ class ObjectiveSet {
   ObjectiveSet(const PointCloud& source, const PointCloud& target, const Features& features,
                const std::vector<std::string>& metrics, const ObjectiveSetOptions& options);
 
+  /// The same over clouds that are searchable already, each kind of metric with its own: LOAM keeps
+  /// maps of edges and of planar points apart. A metric whose clouds are missing is CHECKed.
+  ObjectiveSet(const MetricClouds& source, const MetricClouds& target,
+               const std::vector<std::string>& metrics, const ObjectiveSetOptions& options);
+
   const std::vector<Objective>& objectives() const { return objectives_; }
 
  private:
-  const Matcher& MatcherFor(const std::string& metric, const PointCloud& source,
-                            const SearchableCloud& target, const Features& features,
-                            const ObjectiveSetOptions& options);
+  void AddObjectives(const MetricClouds& source, const MetricClouds& target,
+                     const std::vector<std::string>& metrics, const ObjectiveSetOptions& options);
+  const Matcher& MatcherFor(const std::string& metric, const MetricClouds& source,
+                            const MetricClouds& target, const ObjectiveSetOptions& options);
 
   // On the heap: the matchers refer to them, and a set may be moved.
   std::unique_ptr<PointCloud> edges_;

@@ -5,31 +5,25 @@
 
 #include "src/cloud/normals.h"
 #include "src/cloud/rings.h"
-#include "src/common/error.h"
 #include "src/filtering/ego_blind_spot.h"
+#include "src/filtering/filter_chain.h"
 #include "src/filtering/octree_correspondence_filter.h"
 
 namespace icpscape {
 namespace {
 
-void KeepWhere(const std::vector<char>& keep, std::vector<char>* mask) {
-  std::size_t kept = 0;
-  for (std::size_t i = 0; i < mask->size(); ++i) {
-    if (keep[i] != 0) {
-      (*mask)[kept++] = (*mask)[i];
-    }
+FilterOptions FiltersOf(Variant variant) {
+  FilterOptions options;
+  if (variant == Variant::kBlindSpot || variant == Variant::kEgoFilter) {
+    options.artificial_blind_spot_m = kEgoBlindSpotRadius_m;
   }
-  mask->resize(kept);
-}
-
-void Apply(const std::string& name, FilteredPair filtered, PaperPair* pair) {
-  if (filtered.source.empty() || filtered.target.empty()) {
-    throw ComputationError(name + ": no point is left; expected some to agree.");
+  if (variant == Variant::kEgoFilter) {
+    options.ego_blind_spot_m = kEgoBlindSpotRadius_m;
   }
-  KeepWhere(filtered.keep_source, &pair->features.edge);
-  KeepWhere(filtered.keep_source, &pair->features.planar);
-  pair->source = std::move(filtered.source);
-  pair->target = std::move(filtered.target);
+  if (variant == Variant::kOctree) {
+    options.octree_voxel_m = OctreeFilterOptions().voxel_size_m;
+  }
+  return options;
 }
 
 }  // namespace
@@ -43,20 +37,11 @@ void PrepareForMetrics(int threads, PaperPair* pair) {
 }
 
 PaperPair Filtered(const PaperPair& pair, Variant variant, const SE3d& T_estimate) {
+  FilteredPair filtered = ApplyFilters(pair.source, pair.target, T_estimate, FiltersOf(variant));
   PaperPair result = pair;
-  if (variant == Variant::kBlindSpot || variant == Variant::kEgoFilter) {
-    Apply("artificial blind spot",
-          ArtificialBlindSpots(result.source, result.target, kEgoBlindSpotRadius_m), &result);
-  }
-  if (variant == Variant::kEgoFilter) {
-    Apply("ego blind spot filter",
-          EgoBlindSpotFilter(result.source, result.target, T_estimate, kEgoBlindSpotRadius_m),
-          &result);
-  }
-  if (variant == Variant::kOctree) {
-    Apply("Octree Correspondence Filter",
-          OctreeCorrespondenceFilter(result.source, result.target, T_estimate, {}), &result);
-  }
+  result.features = pair.features.Select(filtered.keep_source);
+  result.source = std::move(filtered.source);
+  result.target = std::move(filtered.target);
   return result;
 }
 

@@ -1,0 +1,53 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "src/odometry/local_map.h"
+
+namespace icpscape {
+
+LocalMap::LocalMap(const LocalMapOptions& options, bool points, unsigned needs)
+    : options_(options),
+      needs_points_(points),
+      needs_edges_((needs & kTargetLine) != 0),
+      needs_planar_((needs & kTargetPatch) != 0),
+      points_(options.voxel_m),
+      edges_(options.voxel_m),
+      planar_(options.voxel_m) {}
+
+void LocalMap::Insert(const PreparedScan& scan, const SE3d& T_world_lidar, int scan_number) {
+  const auto insert = [&](const PointCloud& cloud, VoxelMap* map) {
+    map->RemoveBeyond(T_world_lidar.t(), options_.radius_m);
+    if (options_.scans > 0) {
+      map->RemoveBefore(scan_number - options_.scans + 1);
+    }
+    map->Insert(cloud, T_world_lidar, scan_number);
+  };
+  if (needs_points_) {
+    insert(scan.cloud, &points_);
+  }
+  if (needs_edges_) {
+    insert(scan.edges, &edges_);
+  }
+  if (needs_planar_) {
+    insert(scan.planar, &planar_);
+  }
+}
+
+std::unique_ptr<const LocalMap::View> LocalMap::ViewFrom(const SE3d& T_world_frame,
+                                                         int threads) const {
+  auto view = std::make_unique<View>();
+  const SE3d T_frame_world = T_world_frame.Inverse();
+  if (needs_points_) {
+    view->points = points_.Cloud(T_frame_world);
+    view->clouds.points.emplace(view->points, threads);
+  }
+  if (needs_edges_) {
+    view->edges = edges_.Cloud(T_frame_world);
+    view->clouds.edges.emplace(view->edges, threads);
+  }
+  if (needs_planar_) {
+    view->planar = planar_.Cloud(T_frame_world);
+    view->clouds.planar.emplace(view->planar, threads);
+  }
+  return view;
+}
+
+}  // namespace icpscape

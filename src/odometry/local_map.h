@@ -1,0 +1,49 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#ifndef ICPSCAPE_SRC_ODOMETRY_LOCAL_MAP_H_
+#define ICPSCAPE_SRC_ODOMETRY_LOCAL_MAP_H_
+
+#include <memory>
+
+#include "src/odometry/preprocessing.h"
+#include "src/odometry/voxel_map.h"
+
+namespace icpscape {
+
+struct LocalMapOptions {
+  double voxel_m = 0.25;  ///< One point per voxel; of edges and of planar points likewise.
+  double radius_m = 80;   ///< Points farther from the vehicle are dropped.
+  int scans = 0;          ///< Only points of so many last scans; 0 is no limit. 1 is the paper's.
+};
+
+/// The surroundings as the last scans saw them: all points, and, apart from one another, edges and
+/// planar points, as LOAM's mapping has them. Those that are needed.
+class LocalMap {
+ public:
+  /// `needs` is the union of what the metrics need; all points are kept where one of them is of
+  /// closest points.
+  LocalMap(const LocalMapOptions& options, bool points, unsigned needs);
+
+  /// Adds a scan, and drops what is too far away or too old.
+  void Insert(const PreparedScan& scan, const SE3d& T_world_lidar, int scan_number);
+
+  /// The map as the target of a registration, in the frame of a pose near which it is needed: float
+  /// coordinates stay small.
+  struct View {
+    PointCloud points, edges, planar;
+    MetricClouds clouds;
+
+    View() = default;
+    View(const View&) = delete;  // The clouds refer to this object.
+    View& operator=(const View&) = delete;
+  };
+  std::unique_ptr<const View> ViewFrom(const SE3d& T_world_frame, int threads) const;
+
+ private:
+  LocalMapOptions options_;
+  bool needs_points_, needs_edges_, needs_planar_;
+  VoxelMap points_, edges_, planar_;
+};
+
+}  // namespace icpscape
+
+#endif  // ICPSCAPE_SRC_ODOMETRY_LOCAL_MAP_H_

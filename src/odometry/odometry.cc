@@ -1,0 +1,201 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "src/odometry/odometry.h"
+
+#include <glog/logging.h>
+
+#include <algorithm>
+#include <utility>
+
+#include "src/common/error.h"
+#include "src/common/text.h"
+
+namespace icpscape {
+namespace {
+
+unsigned NeedsOf(const OdometryOptions& options) {
+  unsigned needs = options.objective.matching.max_normal_angle_rad > 0
+                       ? static_cast<unsigned>(kSourceNormal | kTargetNormal)
+                       : 0U;
+  for (const std::string& metric : options.metrics) {
+    needs |= MetricFunctionsOf(metric).needs;
+  }
+  return needs;
+}
+
+bool AnyFeatures(const std::vector<std::string>& metrics) {
+  return std::any_of(metrics.begin(), metrics.end(), NeedsFeatures);
+}
+bool AnyPoints(const std::vector<std::string>& metrics) {
+  return !std::all_of(metrics.begin(), metrics.end(), NeedsFeatures);
+}
+
+JointObjective Joint(const ObjectiveSet& set, const std::vector<double>& weights) {
+  std::vector<JointObjective::Term> terms;
+  for (std::size_t i = 0; i < set.objectives().size(); ++i) {
+    terms.push_back({&set.objectives()[i], weights.empty() ? 1.0 : weights[i]});
+  }
+  return JointObjective(std::move(terms));
+}
+
+}  // namespace
+
+OdometryMode OdometryModeFromName(const std::string& name) {
+  return static_cast<OdometryMode>(
+      IndexOfName("odometry mode", name, {"scan_to_scan", "scan_to_map", "two_stage"}));
+}
+
+void OdometryOptions::Check() const {
+  if (mode != OdometryMode::kScanToScan && filters.Any() && AnyFeatures(metrics)) {
+    throw UsageError(
+        "filters compare two scans, and maps of edges and planar points are none; expected no "
+        "filter, scan_to_scan, or metrics of closest points.");
+  }
+}
+
+// A stage's outcome: T_target_source and how it came about.
+struct Odometry::Registration {
+  SE3d T;
+  bool usable = false;
+  Termination termination = Termination::kFailure;
+  std::string message;
+  int iterations = 0;
+  long n = 0;
+  double rmse = 0;
+
+  void Run(const ObjectiveSet& set, const SE3d& T_start, const OdometryOptions& options) {
+    MinimizerOptions minimizer = options.minimizer;
+    minimizer.threads = options.threads;
+    const MinimizerSummary summary = Minimize(Joint(set, options.weights), T_start, minimizer);
+    usable = summary.Usable();
+    termination = summary.termination;
+    message = summary.message;
+    T = usable ? summary.T_target_source().Normalized() : T_start;
+    if (!summary.iterates.empty()) {
+      iterations = static_cast<int>(summary.iterates.size()) - 1;
+      n = summary.iterates.back().n;
+      rmse = summary.iterates.back().rmse;
+    }
+  }
+};
+
+Odometry::Odometry(OdometryOptions options)
+    : options_(std::move(options)),
+      needs_(NeedsOf(options_)),
+      gate_(options_.adaptive_gate_m),
+      map_(options_.map, AnyPoints(options_.metrics), needs_) {
+  options_.Check();
+}
+
+Odometry::~Odometry() = default;
+
+ObjectiveSetOptions Odometry::ObjectiveOptions() const {
+  ObjectiveSetOptions objective = options_.objective;
+  objective.threads = options_.threads;
+  if (options_.adaptive_gate_m > 0) {
+    const double gate_m = gate_.MaxDistance_m();
+    objective.matching.max_distance_m = gate_m;
+    objective.line.max_neighbor_distance_m = gate_m;
+    objective.patch.max_neighbor_distance_m = gate_m;
+  }
+  return objective;
+}
+
+Odometry::Registration Odometry::Register(const PreparedScan& source, const PreparedScan& target,
+                                          const SE3d& T_predicted) const {
+  const ObjectiveSetOptions objective = ObjectiveOptions();
+  Registration registration;
+  if (options_.filters.Any()) {
+    const FilteredPair pair =
+        ApplyFilters(source.cloud, target.cloud, T_predicted, options_.filters);
+    registration.Run(ObjectiveSet(pair.source, pair.target,
+                                  source.features.Select(pair.keep_source), options_.metrics,
+                                  objective),
+                     T_predicted, options_);
+  } else {
+    const SearchableCloud& all = *target.clouds.points;
+    registration.Run(
+        ObjectiveSet(source.clouds, {all, all, all}, options_.metrics, objective), T_predicted,
+        options_);
+  }
+  return registration;
+}
+
+Odometry::Registration Odometry::RegisterToMap(const PreparedScan& source, const SE3d& T_predicted,
+                                               FrameResult* result) const {
+  const auto map = map_.ViewFrom(T_world_last_, options_.threads);
+  result->map_points = map->points.size() + map->edges.size() + map->planar.size();
+  const ObjectiveSetOptions objective = ObjectiveOptions();
+  Registration registration;
+  if (options_.filters.Any()) {
+    const FilteredPair pair =
+        ApplyFilters(source.cloud, map->points, T_predicted, options_.filters);
+    registration.Run(ObjectiveSet(pair.source, pair.target, {}, options_.metrics, objective),
+                     T_predicted, options_);
+  } else {
+    registration.Run(ObjectiveSet(source.clouds, map->clouds, options_.metrics, objective),
+                     T_predicted, options_);
+  }
+  return registration;
+}
+
+bool Odometry::MapsNow() const {
+  return options_.mode == OdometryMode::kScanToMap ||
+         (options_.mode == OdometryMode::kTwoStage && size_ % options_.map_every == 0);
+}
+
+FrameResult Odometry::Add(PointCloud scan) {
+  auto current = Prepare(std::move(scan), needs_, options_.preprocessing, options_.threads);
+  FrameResult result;
+  result.points = current->cloud.size();
+  if (last_) {
+    const SE3d T_predicted = options_.constant_velocity ? motion_ : SE3d();
+    result.gate_m = ObjectiveOptions().matching.max_distance_m;
+    result.motion = T_predicted;
+    SE3d T_last_current = T_predicted;
+    const auto take_over = [&](const Registration& registration) {
+      result.registered = registration.usable;
+      result.termination = registration.termination;
+      result.iterations += registration.iterations;
+      result.n = registration.n;
+      result.rmse = registration.rmse;
+      T_last_current = registration.T;
+    };
+    try {
+      if (options_.mode != OdometryMode::kScanToMap) {
+        take_over(Register(*current, *last_, T_predicted));
+        result.motion = T_last_current;
+      }
+      if (MapsNow()) {
+        take_over(RegisterToMap(*current, T_last_current, &result));
+      }
+    } catch (const ComputationError& error) {  // A filter or a metric was left without a point.
+      result.registered = false;
+      LOG(WARNING) << error.what();
+    }
+    if (options_.mode == OdometryMode::kScanToMap) {
+      result.motion = T_last_current;
+    }
+    result.T_world_lidar = (T_world_last_ * T_last_current).Normalized();
+  }
+  Finish(std::move(current), result);
+  return result;
+}
+
+void Odometry::Replay(PointCloud scan, const FrameResult& result) {
+  Finish(Prepare(std::move(scan), needs_, options_.preprocessing, options_.threads), result);
+}
+
+void Odometry::Finish(std::unique_ptr<const PreparedScan> scan, const FrameResult& result) {
+  if (options_.adaptive_gate_m > 0 && last_) {
+    gate_.Add(options_.constant_velocity ? motion_ : SE3d(), result.motion);
+  }
+  if (options_.mode != OdometryMode::kScanToScan && (!last_ || MapsNow())) {
+    map_.Insert(*scan, result.T_world_lidar, size_);
+  }
+  last_ = std::move(scan);
+  T_world_last_ = result.T_world_lidar;
+  motion_ = result.motion;
+  ++size_;
+}
+
+}  // namespace icpscape

@@ -1,0 +1,107 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#ifndef ICPSCAPE_SRC_ODOMETRY_ODOMETRY_H_
+#define ICPSCAPE_SRC_ODOMETRY_ODOMETRY_H_
+
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "src/filtering/filter_chain.h"
+#include "src/minimizer/minimizer.h"
+#include "src/odometry/adaptive_gate.h"
+#include "src/odometry/local_map.h"
+#include "src/odometry/preprocessing.h"
+
+namespace icpscape {
+
+/// What a scan is registered to.
+enum class OdometryMode {
+  kScanToScan,  ///< The scan before it [paper sec. 1].
+  kScanToMap,   ///< A map of the scans before it.
+  kTwoStage,    ///< The scan before it, and every few scans that result to the map [LOAM].
+};
+/// Names in the order of the enum: scan_to_scan, scan_to_map, two_stage. Throws UsageError for
+/// others.
+OdometryMode OdometryModeFromName(const std::string& name);
+
+struct OdometryOptions {
+  OdometryMode mode = OdometryMode::kScanToMap;
+  std::vector<std::string> metrics = {"point_to_plane"};
+  std::vector<double> weights;  ///< One per metric; none is 1 each.
+  PreprocessingOptions preprocessing;
+  FilterOptions filters;  ///< T_e is the predicted motion.
+  ObjectiveSetOptions objective;
+  MinimizerOptions minimizer;
+  LocalMapOptions map;
+  int map_every = 10;             ///< kTwoStage: a mapping step every so many scans.
+  bool constant_velocity = true;  ///< Start from the motion before; else from no motion.
+  /// If positive: the longest distance of a pair follows from how far predictions were off, and
+  /// this is what the first is taken to be off by (m); see AdaptiveGate.
+  double adaptive_gate_m = 0;
+  int threads = 1;
+
+  /// Throws UsageError where options cannot go together.
+  void Check() const;
+};
+
+/// What became of one scan.
+struct FrameResult {
+  SE3d T_world_lidar;  ///< The world is the first scan's frame.
+  /// Motion since the scan before, T_previous_current, as the predictor takes it: in kTwoStage
+  /// before the map's correction.
+  SE3d motion;
+  bool registered = false;  ///< False for the first scan, and where the prediction had to stand in.
+  Termination termination = Termination::kFailure;
+  int iterations = 0;  ///< Of all stages.
+  long n = 0;          ///< Pairs of the last stage, at its end.
+  double rmse = 0;     ///< Of the last stage, at its end.
+  double gate_m = 0;   ///< Longest distance of a pair; 0 is no limit.
+  std::size_t points = 0;      ///< After preprocessing.
+  std::size_t map_points = 0;  ///< Of the map that it was registered to; 0 without one.
+};
+
+/// Lidar odometry: feeds scans one after the other through preprocessing, filters and the closed
+/// loop [paper fig. 1], starting each registration from the motion before. A scan that cannot be
+/// registered (no pair is left, the loss is flat) gets the predicted motion, and says so.
+/// Bit-identical for any number of threads.
+class Odometry {
+ public:
+  /// Throws UsageError.
+  explicit Odometry(OdometryOptions options);
+  ~Odometry();
+
+  /// Registers the next scan.
+  FrameResult Add(PointCloud scan);
+
+  /// Takes over what Add returned for the next scan in an earlier run, without registering it:
+  /// afterwards the state is bit for bit the one after Add.
+  void Replay(PointCloud scan, const FrameResult& result);
+
+  /// Number of scans so far.
+  int size() const { return size_; }
+  /// The last scan as it was registered; null before the first.
+  const PreparedScan* last_scan() const { return last_.get(); }
+
+ private:
+  struct Registration;
+  Registration Register(const PreparedScan& source, const PreparedScan& target,
+                        const SE3d& T_predicted) const;
+  Registration RegisterToMap(const PreparedScan& source, const SE3d& T_predicted,
+                             FrameResult* result) const;
+  ObjectiveSetOptions ObjectiveOptions() const;
+  bool MapsNow() const;
+  void Finish(std::unique_ptr<const PreparedScan> scan, const FrameResult& result);
+
+  OdometryOptions options_;
+  unsigned needs_ = 0;
+  int size_ = 0;
+  std::unique_ptr<const PreparedScan> last_;
+  SE3d T_world_last_;
+  SE3d motion_;
+  AdaptiveGate gate_;
+  LocalMap map_;
+};
+
+}  // namespace icpscape
+
+#endif  // ICPSCAPE_SRC_ODOMETRY_ODOMETRY_H_
