@@ -126,6 +126,7 @@ void Evaluate() {
   RequireFlag(!FLAGS_out.empty(), "out", FLAGS_out, "a folder");
   const std::filesystem::path out = FLAGS_out;
   PrepareOutputFolder(out);
+  std::filesystem::remove(out / "manifest.json");  // Written last: the mark of a finished run.
   Manifest manifest(AppName());
   RecordFlags(&manifest);
   std::vector<NamedTrajectory> trajectories;
