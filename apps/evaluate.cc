@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <gflags/gflags.h>
 
+#include <algorithm>
 #include <cmath>
 #include <iostream>
 #include <set>
@@ -47,6 +48,14 @@ std::vector<std::string> NamesOf(const std::vector<std::string>& paths) {
   return are_unique ? names : paths;
 }
 
+std::vector<std::string> ListFromFlag(const std::string& flag, const std::string& value) {
+  std::vector<std::string> parts = Split(value);
+  const auto commas = static_cast<std::size_t>(std::count(value.begin(), value.end(), ','));
+  RequireFlag(value.empty() || parts.size() == commas + 1, flag, value,
+              "names separated by single commas");
+  return parts;
+}
+
 Files FilesFromFlags() {
   if (FLAGS_estimate.empty()) {
     throw UsageError("no --estimate: expected the file of a trajectory, or several.");
@@ -59,11 +68,11 @@ Files FilesFromFlags() {
   RequireFlag(from_kitti || FLAGS_sequences.empty(), "sequences", FLAGS_sequences,
               "--kitti_root with it");
   Files files;
-  files.estimates = Split(FLAGS_estimate);
+  files.estimates = ListFromFlag("estimate", FLAGS_estimate);
   const auto as_many = [&](std::size_t count) { return count == files.estimates.size(); };
   const std::string expected = "one for each --estimate";
   if (from_kitti) {
-    files.names = Split(FLAGS_sequences);
+    files.names = ListFromFlag("sequences", FLAGS_sequences);
     RequireFlag(as_many(files.names.size()), "sequences", FLAGS_sequences, expected);
     for (const std::string& sequence : files.names) {
       files.truths.push_back(
@@ -71,10 +80,10 @@ Files FilesFromFlags() {
     }
   } else {
     files.names = NamesOf(files.estimates);
-    files.truths = Split(FLAGS_ground_truth);
+    files.truths = ListFromFlag("ground_truth", FLAGS_ground_truth);
     RequireFlag(as_many(files.truths.size()), "ground_truth", FLAGS_ground_truth, expected);
   }
-  files.calibrations = Split(FLAGS_calib);
+  files.calibrations = ListFromFlag("calib", FLAGS_calib);
   if (files.calibrations.size() == 1) {
     files.calibrations.resize(files.estimates.size(), files.calibrations[0]);
   }
@@ -117,6 +126,7 @@ void Evaluate() {
   RequireFlag(!FLAGS_out.empty(), "out", FLAGS_out, "a folder");
   const std::filesystem::path out = FLAGS_out;
   PrepareOutputFolder(out);
+  std::filesystem::remove(out / "manifest.json");  // Written last: the mark of a finished run.
   Manifest manifest(AppName());
   RecordFlags(&manifest);
   std::vector<NamedTrajectory> trajectories;

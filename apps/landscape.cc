@@ -8,6 +8,8 @@
 #include <iostream>
 
 #include "apps/app.h"
+#include "apps/iterates.h"
+#include "apps/minimizer_flags.h"
 #include "apps/objective_flags.h"
 #include "apps/pair_filters.h"
 #include "apps/pair_flags.h"
@@ -34,12 +36,18 @@ DEFINE_string(patch_offset, "per_term",
 DEFINE_string(association, "reassociate",
               "reassociate (pairs of each pose, as in ICP) or frozen (pairs of --frozen_u).");
 DEFINE_double(frozen_u, 1, "Where the frozen pairs are taken.");
+DEFINE_bool(iterates, false,
+            "Minimise each metric from --initial as well, and draw the iterates at their nearest u "
+            "with their distance from the path.");
 
 namespace icpscape {
 namespace {
 
 void WriteCurves(const std::vector<Curve>& curves, const std::filesystem::path& out) {
-  // Tables of an earlier run's metrics must not stand beside this run's.
+  // Tables and figures of an earlier run must not stand beside this run's.
+  for (const char* file : {"iterates.csv", "iterations.svg", "iterations.png"}) {
+    std::filesystem::remove(out / file);
+  }
   ForEachMetric([&](auto tag) {
     std::filesystem::remove(out / (std::string(decltype(tag)::Metric::kName) + "_rmse.txt"));
   });
@@ -70,6 +78,30 @@ void PrintMinima(const std::vector<Curve>& curves, double motion_m, Manifest* ma
   }
 }
 
+bool IsDefault(const char* flag) {
+  const gflags::CommandLineFlagInfo info = gflags::GetCommandLineFlagInfoOrDie(flag);
+  return info.current_value == info.default_value;
+}
+
+// Iterates belong on the curve of what is minimised; the minimiser's flags belong to iterates.
+void CheckIterateFlags() {
+  if (!FLAGS_iterates) {
+    for (const char* flag : {"reassociation", "max_iterations", "min_step_m", "min_step_deg",
+                             "min_cost_change", "max_final_cost", "dof"}) {
+      RequireFlag(IsDefault(flag), flag, gflags::GetCommandLineFlagInfoOrDie(flag).current_value,
+                  "--iterates with it");
+    }
+    return;
+  }
+  MinimizerFromFlags();
+  RequireFlag(FLAGS_column == "rmse" || FLAGS_column == "cost", "column", FLAGS_column,
+              "rmse or cost with --iterates");
+  RequireFlag(FLAGS_association == "reassociate", "association", FLAGS_association,
+              "reassociate with --iterates");
+  RequireFlag(FLAGS_patch_offset == "per_term", "patch_offset", FLAGS_patch_offset,
+              "per_term with --iterates");
+}
+
 void CheckFlags(const CurveOptions& options) {
   CheckPairFlags(MetricsFromFlags(), true);
   CheckFilterFlags();
@@ -86,6 +118,10 @@ void CheckFlags(const CurveOptions& options) {
   if (FLAGS_association != "reassociate" && FLAGS_association != "frozen") {
     throw UsageError("--association=" + FLAGS_association + ": expected reassociate or frozen.");
   }
+  RequireFlag(IsDefault("weights"), "weights",
+              gflags::GetCommandLineFlagInfoOrDie("weights").current_value,
+              "none, since each metric has a curve of its own");
+  CheckIterateFlags();
 }
 
 // ", --octree_voxel_m=0.1": what sets the curves apart from the default, for the title.
@@ -128,9 +164,16 @@ std::string ChangedFlags() {
                            "patch_leg_m",
                            "normal_neighbors",
                            "normal_radius_m",
-                           "elevation_correction_deg"}) {
+                           "elevation_correction_deg",
+                           "reassociation",
+                           "max_iterations",
+                           "min_step_m",
+                           "min_step_deg",
+                           "min_cost_change",
+                           "max_final_cost",
+                           "dof"}) {
     const gflags::CommandLineFlagInfo info = gflags::GetCommandLineFlagInfoOrDie(flag);
-    const bool has_a_say = info.name != "loss" || FLAGS_column == "cost";
+    const bool has_a_say = info.name != "loss" || FLAGS_column == "cost" || FLAGS_iterates;
     if (info.current_value != info.default_value && has_a_say) {
       text += ", --" + info.name + "=" + info.current_value;
     }
@@ -145,6 +188,28 @@ SE3d ReferencePose(const ScanPair& pair, Manifest* manifest) {
               truth.LogRotation().norm() * 180 / M_PI);
   const auto check = GroundTruthCheckOf(pair, FLAGS_reference == "refined", manifest);
   return FLAGS_reference == "refined" ? check->T_refined : truth;
+}
+
+// Whether there are figures.
+bool Draw(const std::filesystem::path& out, const std::string& scans,
+          const std::string& association) {
+  const std::string changed = ChangedFlags();
+  const std::string iterates = (out / "iterates.csv").string();
+  std::vector<std::string> arguments = {(out / "curves.csv").string(),
+                                        "--out",
+                                        (out / "landscape").string(),
+                                        "--column",
+                                        FLAGS_column,
+                                        "--title",
+                                        scans + "\n" + association + changed};
+  if (!FLAGS_iterates) {
+    return RunPlotScript("plot_curves.py", arguments);
+  }
+  arguments.insert(arguments.end(), {"--iterates", iterates});
+  return RunPlotScript("plot_curves.py", arguments) &&
+         RunPlotScript("plot_iterations.py",
+                       {iterates, "--out", (out / "iterations").string(), "--column", FLAGS_column,
+                        "--title", scans + changed});
 }
 
 void Landscape() {
@@ -180,15 +245,19 @@ void Landscape() {
 
   PrintMinima(curves, (T_reference.t() - pair.T_initial.t()).norm(), &manifest);
   WriteCurves(curves, out);
-  const bool drawn = RunPlotScript(
-      "plot_curves.py",
-      {(out / "curves.csv").string(), "--out", (out / "landscape").string(), "--column",
-       FLAGS_column, "--title", pair.title + "\n" + association + ChangedFlags()});
+  if (FLAGS_iterates) {
+    ReportIterates(MinimizeEach(set.objectives(), pair.T_initial, MinimizerFromFlags()), path,
+                   options, out, &manifest);
+    manifest.AddTiming("iterates");
+  }
+  const bool drawn = Draw(out, pair.title, association);
   manifest.AddTiming("figures");
   manifest.Write(out / "manifest.json");
   std::cout << "time: " << manifest.TimingsText() << '\n';
   std::cout << "written: " << (out / "curves.csv").string()
+            << (FLAGS_iterates ? ", iterates.csv" : "")
             << (drawn ? ", landscape.svg, landscape.png" : "")
+            << (drawn && FLAGS_iterates ? ", iterations.svg, iterations.png" : "")
             << ", a METRIC_rmse.txt for pgfplots each, manifest.json\n";
 }
 

@@ -8,15 +8,7 @@ import argparse
 import csv
 from collections import defaultdict
 
-import matplotlib
-
-matplotlib.use("Agg")
-import matplotlib.pyplot as plt  # noqa: E402
-
-# The paper's colours and line styles.
-STYLES = {"edge_to_line": ("tab:orange", "--"), "planar_to_patch": ("tab:green", "-"),
-          "symmetric": ("tab:cyan", "-."), "point_to_plane": ("tab:purple", "--"),
-          "point_to_point": ("tab:blue", "-")}
+from plot_style import plt, save, styles_of
 
 
 def main():
@@ -40,17 +32,16 @@ def main():
         axes.plot([ends[0], ends[-1]], [ends[0], ends[-1]], color="0.7", linewidth=4,
                   label="its own prior (slope 1)")
         axes.axhline(0, color="0.4", linewidth=0.8)
+        styles = styles_of(metrics)
         for metric, points in metrics.items():
-            color, style = STYLES.get(metric, (None, "-"))
+            label, color, style = styles[metric]
             axes.plot(*zip(*points), style, marker="o", markersize=3, linewidth=1.3, color=color,
-                      label=metric.replace("_", " "))
+                      label=label)
         axes.set_xlabel(f"error of the filter's estimate, {sweep.replace('_', ' ')} ({units[sweep]})")
         axes.set_ylabel(f"error of the minimum ({units[sweep]})")
     panels[0][0].legend(frameon=False, fontsize=8)
     figure.suptitle(arguments.title, fontsize=10)
-    plt.rcParams["svg.hashsalt"] = "icpscape"  # The same picture is the same file.
-    figure.savefig(arguments.out + ".svg", metadata={"Date": None})
-    figure.savefig(arguments.out + ".png", dpi=110)
+    save(figure, arguments.out)
 
 
 if __name__ == "__main__":

@@ -5,13 +5,9 @@ below, how far the estimate is off over the length of the path."""
 import argparse
 import csv
 import math
-import os
 from collections import defaultdict
 
-import matplotlib
-
-matplotlib.use("Agg")
-import matplotlib.pyplot as plt  # noqa: E402
+from plot_style import plt, save
 
 TRUTH, ESTIMATE = "0.55", "tab:blue"
 COLUMNS = 4  # Sequences side by side.
@@ -112,11 +108,7 @@ def main():
     parser.add_argument("--title", default="")
     arguments = parser.parse_args()
     figure = draw(read_sequences(arguments.trajectory), arguments.title)
-    plt.rcParams["svg.hashsalt"] = "icpscape"  # The same picture is the same file.
-    for extension, options in ((".svg", {"metadata": {"Date": None}}), (".png", {"dpi": 150})):
-        part = arguments.out + ".part" + extension
-        figure.savefig(part, **options)
-        os.replace(part, arguments.out + extension)
+    save(figure, arguments.out)
 
 
 if __name__ == "__main__":

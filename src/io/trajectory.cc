@@ -22,6 +22,7 @@ namespace {
 constexpr std::size_t kKittiColumns = 12;
 constexpr std::size_t kTumColumns = 8;
 constexpr double kUnitTolerance = 1e-3;  // Text rounds.
+constexpr double kFarthestM = 1e9;       // Beyond every coordinate on Earth.
 
 std::vector<std::string> Words(const std::string& line) {
   std::istringstream in(line);
@@ -33,8 +34,9 @@ bool IsComment(const std::vector<std::string>& words) {
 }
 
 std::ifstream Open(const std::filesystem::path& path) {
+  // It is read twice: no pipe would do.
   std::ifstream in(path);
-  if (!in || std::filesystem::is_directory(path)) {
+  if (!in || !std::filesystem::is_regular_file(path)) {
     throw InputError(path.string() + ": cannot be read; expected a trajectory, KITTI's or TUM's.");
   }
   return in;
@@ -50,6 +52,14 @@ std::vector<std::string> FirstRow(const std::filesystem::path& path) {
     }
   }
   return {};
+}
+
+void CheckPosition(const SE3d& T, const std::string& place) {
+  const double farthest = T.t().cwiseAbs().maxCoeff();
+  if (!(farthest <= kFarthestM)) {
+    throw InputError(place + ": a coordinate of " + Number(farthest) +
+                     " m; expected at most 1e9 m.");
+  }
 }
 
 void AddTumRow(const std::vector<std::string>& words, const std::string& place,
@@ -75,6 +85,15 @@ void AddTumRow(const std::vector<std::string>& words, const std::string& place,
   }
   trajectory->times_s.push_back(v[0]);
   trajectory->T_world_body.emplace_back(q.normalized().toRotationMatrix(), Vec3(v[1], v[2], v[3]));
+  CheckPosition(trajectory->T_world_body.back(), place);
+}
+
+Trajectory ReadKitti(const std::filesystem::path& path) {
+  Trajectory trajectory{ReadKittiPoses(path), {}};
+  for (std::size_t i = 0; i < trajectory.T_world_body.size(); ++i) {
+    CheckPosition(trajectory.T_world_body[i], path.string() + ":" + std::to_string(i + 1));
+  }
+  return trajectory;
 }
 
 Trajectory ReadTum(const std::filesystem::path& path) {
@@ -95,7 +114,7 @@ Trajectory ReadTum(const std::filesystem::path& path) {
 Trajectory ReadTrajectory(const std::filesystem::path& path) {
   const std::size_t columns = FirstRow(path).size();
   if (columns == kKittiColumns) {
-    return {ReadKittiPoses(path), {}};
+    return ReadKitti(path);
   }
   if (columns == kTumColumns) {
     return ReadTum(path);

@@ -20,8 +20,8 @@ struct Trajectory {
 ///   12, KITTI: the upper 3x4 of T_world_body, row-major; no times;
 ///    8, TUM: "timestamp tx ty tz qx qy qz qw", seconds and metres; lines that begin with # are
 ///       comments; times must increase.
-/// Throws InputError FILE:LINE where a row has other columns, is no rigid motion or is not finite,
-/// and where there is no pose.
+/// Throws InputError FILE:LINE where a row has other columns, is no rigid motion, is not finite or
+/// has a coordinate beyond 1e9 m, and where there is no pose or no regular file.
 Trajectory ReadTrajectory(const std::filesystem::path& path);
 
 /// KITTI's format, all poses as they are. Translations read back exactly, rotations to rounding

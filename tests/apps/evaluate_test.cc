@@ -157,6 +157,7 @@ TEST_F(Evaluate, RefusesInOneSentence) {
   ExpectRefusal(RunProgram("evaluate", Kitti({"--ground_truth=x"})), 1, "not both");
   ExpectRefusal(RunProgram("evaluate", Kitti({"--sequences=01"})), 1, "one for each --estimate");
   ExpectRefusal(RunProgram("evaluate", Kitti({"--calib=a,b,c"})), 1, "one, or one for each");
+  ExpectRefusal(RunProgram("evaluate", Kitti({"--estimate=a,,b"})), 1, "single commas");
   ExpectRefusal(run("1.txt", "2.txt", "--sequences=01"), 1, "--kitti_root with it");
   ExpectRefusal(run("1.txt", "2.txt", "--rpe_frames=0"), 1, "at least 1");
   ExpectRefusal(run("1.txt", "2.txt", "--rpe_frames=300"), 1, "fewer than the 300 poses of 1");

@@ -133,6 +133,11 @@ TEST(Trajectory, RefusesBrokenFilesInOneSentence) {
   EXPECT_THAT(refusal(tum + "2 0 x 0 0 0 0 1\n"), HasSubstr("t.txt:3: \"x\""));
   EXPECT_THAT(refusal(tum + "2 0 nan 0 0 0 0 1\n"), HasSubstr("t.txt:3: \"nan\""));
   EXPECT_THAT(refusal(tum + "2 0 0 0 0 0 0 1.1\n"), HasSubstr("t.txt:3: the quaternion"));
+  EXPECT_THAT(refusal(tum + "2 0 1e200 0 0 0 0 1\n"),
+              HasSubstr("t.txt:3: a coordinate of 1e+200 m"));
+  EXPECT_THAT(refusal(kitti + "1 0 0 0 0 1 0 2e9 0 0 1 0\n"),
+              HasSubstr("t.txt:2: a coordinate of 2e+09"));
+  EXPECT_THAT(RefusalOf("/dev/zero"), HasSubstr("/dev/zero: cannot be read"));
   EXPECT_THAT(refusal(tum + "1 0 0 0 0 0 0 1\n"), HasSubstr("t.txt:3: timestamp 1 is not after"));
 }
 

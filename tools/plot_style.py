@@ -1,0 +1,44 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""What the plots of metrics share: colours, line styles, labels, and how files are written."""
+import itertools
+import os
+
+import matplotlib
+
+matplotlib.use("Agg")
+import matplotlib.pyplot as plt  # noqa: E402
+
+# The paper's colours and line styles; further metrics take the other colours in turn.
+STYLES = {
+    "edge_to_line": ("edge point to edge line", "tab:orange", "--"),
+    "planar_to_patch": ("planar point to planar patch", "tab:green", "-"),
+    "point_to_point": ("point-to-point", "tab:blue", "-"),
+    "point_to_plane": ("point-to-plane", "tab:purple", "--"),
+    "symmetric": ("symmetric objective function", "tab:cyan", "-."),
+}
+OTHER_COLORS = ("tab:red", "tab:brown", "tab:pink", "tab:olive", "tab:gray")
+
+LABELS = {
+    "rmse": r"RMSE($\epsilon$)",
+    "rms_residual": r"$\sqrt{\Sigma |r|^2 / n}$",
+    "rmse_fixed_n": r"$\sqrt{\epsilon / n(u=1)}$",
+    "epsilon": r"$\epsilon$",
+    "cost": r"cost $\frac{1}{2} \Sigma \rho(|r|^2)$",
+    "inlier_ratio": "inlier ratio",
+}
+
+
+def styles_of(metrics):
+    """Label, colour and line style of each."""
+    others = itertools.cycle(OTHER_COLORS)
+    return {metric: STYLES.get(metric) or (metric.replace("_", " "), next(others), "-")
+            for metric in metrics}
+
+
+def save(figure, path):
+    """PATH.svg and PATH.png, each beside its place and then renamed to it."""
+    plt.rcParams["svg.hashsalt"] = "icpscape"  # The same picture is the same file.
+    for extension, options in ((".svg", {"metadata": {"Date": None}}), (".png", {"dpi": 150})):
+        part = path + ".part" + extension
+        figure.savefig(part, **options)
+        os.replace(part, path + extension)
