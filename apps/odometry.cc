@@ -23,8 +23,9 @@
 #include "src/odometry/frame_record.h"
 
 DEFINE_bool(restart, false, "Begin anew where an earlier run has left a journal in --out.");
-DEFINE_double(write_map_voxel_m, 0.5,
-              "map.ply has one point per voxel of this size (m) of the whole drive; 0 writes none.");
+DEFINE_double(
+    write_map_voxel_m, 0.5,
+    "map.ply has one point per voxel of this size (m) of the whole drive; 0 writes none.");
 
 namespace icpscape {
 namespace {

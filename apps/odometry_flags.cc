@@ -63,8 +63,8 @@ OdometryOptions OdometryFromFlags() {
               "a positive length");
   RequireFlag(FLAGS_map_scans >= 0, "map_scans", std::to_string(FLAGS_map_scans), "0 or more");
   RequireFlag(FLAGS_map_every >= 1, "map_every", std::to_string(FLAGS_map_every), "at least 1");
-  RequireFlag(FLAGS_adaptive_gate_m >= 0 && std::isfinite(FLAGS_adaptive_gate_m),
-              "adaptive_gate_m", Number(FLAGS_adaptive_gate_m), "a length in m, or 0");
+  RequireFlag(FLAGS_adaptive_gate_m >= 0 && std::isfinite(FLAGS_adaptive_gate_m), "adaptive_gate_m",
+              Number(FLAGS_adaptive_gate_m), "a length in m, or 0");
   options.map = {FLAGS_map_voxel_m, FLAGS_map_radius_m, FLAGS_map_scans};
   options.map_every = FLAGS_map_every;
   options.constant_velocity =

@@ -15,9 +15,10 @@ DEFINE_string(sequence, "00", "KITTI sequence, with --kitti_root.");
 DEFINE_string(scans, "",
               "Or: a folder of .bin, .pcd or .ply scans, or a raw drive of KITTI's (a folder with "
               "velodyne_points/).");
-DEFINE_string(ground_truth, "",
-              "With --scans: trajectory of the lidar, KITTI's or TUM's format, a pose for each scan "
-              "of the folder.");
+DEFINE_string(
+    ground_truth, "",
+    "With --scans: trajectory of the lidar, KITTI's or TUM's format, a pose for each scan "
+    "of the folder.");
 DEFINE_string(frames, "", "First and last scan, as in 0:99; none is all.");
 DEFINE_bool(reverse, false, "Drive backwards: the last scan comes first.");
 
@@ -54,8 +55,7 @@ ScanSequence SequenceFromFlags(Manifest* manifest) {
                          " scans in " + FLAGS_scans + ".");
       }
       const auto begin = poses.begin() + frames.first;
-      sequence.T_world_lidar = {begin,
-                                begin + static_cast<std::ptrdiff_t>(sequence.scans.size())};
+      sequence.T_world_lidar = {begin, begin + static_cast<std::ptrdiff_t>(sequence.scans.size())};
       manifest->AddInput(FLAGS_ground_truth);
     }
   }

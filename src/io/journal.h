@@ -17,9 +17,9 @@ namespace icpscape {
 /// header: what the others depend on. A torn last line is dropped.
 class Journal {
  public:
-  /// Opens or creates the file, for this process alone. Throws InputError where it cannot be written,
-  /// is in use, has another header (the message names the first part, separated by "; ", that
-  /// differs), or is damaged before its end.
+  /// Opens or creates the file, for this process alone. Throws InputError where it cannot be
+  /// written, is in use, has another header (the message names the first part, separated by "; ",
+  /// that differs), or is damaged before its end.
   Journal(std::filesystem::path path, const std::string& header);
   ~Journal();
   Journal(const Journal&) = delete;

@@ -36,9 +36,8 @@ std::vector<std::filesystem::path> ScansIn(const std::filesystem::path& folder) 
     throw InputError(folder.string() + ": holds " + Join({kinds.begin(), kinds.end()}, " and ") +
                      " files; expected scans of one kind.");
   }
-  const bool are_numbers = std::all_of(scans.begin(), scans.end(), [](const auto& scan) {
-    return std::isfinite(NumberOf(scan));
-  });
+  const bool are_numbers = std::all_of(
+      scans.begin(), scans.end(), [](const auto& scan) { return std::isfinite(NumberOf(scan)); });
   std::sort(scans.begin(), scans.end(), [&](const auto& a, const auto& b) {
     return are_numbers && NumberOf(a) != NumberOf(b) ? NumberOf(a) < NumberOf(b) : a < b;
   });
@@ -125,9 +124,10 @@ ScanSequence OpenKittiSequence(const std::filesystem::path& root, const std::str
   const KittiSequence kitti(root, name);
   ScanSequence sequence;
   sequence.title = "KITTI " + name;
-  const int last = frames.last >= 0
-                       ? frames.last
-                       : static_cast<int>(NumberOf(ScansIn(kitti.ScanPath(0).parent_path()).back()));
+  const int last =
+      frames.last >= 0
+          ? frames.last
+          : static_cast<int>(NumberOf(ScansIn(kitti.ScanPath(0).parent_path()).back()));
   for (int frame = frames.first; frame <= last; ++frame) {
     sequence.scans.push_back(kitti.ScanPath(frame));
     if (!std::filesystem::exists(sequence.scans.back())) {
@@ -152,8 +152,7 @@ ScanSequence OpenKittiSequence(const std::filesystem::path& root, const std::str
                          " rows; expected a row for frame " + std::to_string(last) + ".");
       }
       const auto begin = poses.begin() + static_cast<std::ptrdiff_t>(first);
-      sequence.T_world_lidar = {begin,
-                                begin + static_cast<std::ptrdiff_t>(sequence.scans.size())};
+      sequence.T_world_lidar = {begin, begin + static_cast<std::ptrdiff_t>(sequence.scans.size())};
     }
   }
   return sequence;

@@ -68,9 +68,8 @@ FrameRecord ParseFrameRecord(const std::string& text, const std::string& place) 
   };
   FrameRecord record;
   record.scan_sha256 = words.empty() ? "" : words[0];
-  ForEachNumber(record, [&](auto& value) {
-    value = static_cast<std::decay_t<decltype(value)>>(number());
-  });
+  ForEachNumber(record,
+                [&](auto& value) { value = static_cast<std::decay_t<decltype(value)>>(number()); });
   record.result.T_world_lidar = pose();
   record.result.motion = pose();
   if (!good || next != words.size()) {
