@@ -46,6 +46,7 @@ std::string JournalHeader(const ScanSequence& sequence) {
       header += "; " + name + "=" + value;
     }
   }
+  std::replace(header.begin(), header.end(), '\n', ' ');  // A path may have one, a record not.
   return header + "; scans=" + std::to_string(sequence.scans.size());
 }
 
@@ -207,10 +208,8 @@ void RunOdometry() {
   Manifest manifest(AppName());
   RecordFlags(&manifest);
   const ScanSequence sequence = SequenceFromFlags(&manifest);
-  if (FLAGS_restart) {
-    std::filesystem::remove(out / "journal.txt");
-  }
-  Journal journal(out / "journal.txt", JournalHeader(sequence));
+  Journal journal(out / "journal.txt", JournalHeader(sequence),
+                  FLAGS_restart ? Journal::Begin::kAnew : Journal::Begin::kWhereItEnds);
   Run run(sequence, &journal);
   run.Go();
   manifest.AddTiming("odometry");
