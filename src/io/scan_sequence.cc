@@ -6,6 +6,7 @@
 #include <cmath>
 #include <cstdio>
 #include <fstream>
+#include <numeric>
 #include <set>
 
 #include "src/common/error.h"
@@ -14,6 +15,8 @@
 
 namespace icpscape {
 namespace {
+
+constexpr double kLargestFrame = 1e9;
 
 double NumberOf(const std::filesystem::path& scan) { return ParseNumber(scan.stem().string()); }
 
@@ -60,10 +63,16 @@ std::vector<double> ReadTimes(const std::filesystem::path& path) {
   std::ifstream in(path);
   std::vector<double> times;
   std::string line;
+  int blank = 0;  // A blank line is fine at the end; between times it would shift the frames.
   for (int number = 1; std::getline(in, line); ++number) {
     line.erase(line.find_last_not_of(" \t\r") + 1);
     if (line.empty()) {
+      blank = blank == 0 ? number : blank;
       continue;
+    }
+    if (blank > 0) {
+      throw InputError(path.string() + ":" + std::to_string(blank) +
+                       ": a blank line; expected a time per frame.");
     }
     const double time = ParseTime(line);
     if (!std::isfinite(time) || (!times.empty() && !(time > times.back()))) {
@@ -75,21 +84,52 @@ std::vector<double> ReadTimes(const std::filesystem::path& path) {
   return times;
 }
 
-// Of the scans [first, first + count) of `times`; made up where there are none.
-void SetTimes(const std::vector<double>& times, std::size_t first,
+// Of the scans, whose frames these are: line by line of `times`; made up where there are none.
+void SetTimes(const std::vector<double>& times, const std::vector<std::size_t>& frames,
               const std::filesystem::path& path, ScanSequence* sequence) {
-  const std::size_t count = sequence->scans.size();
   sequence->times_are_measured = !times.empty();
-  if (sequence->times_are_measured && times.size() < first + count) {
-    throw InputError(path.string() + ": " + std::to_string(times.size()) +
-                     " times; expected one for each of " + std::to_string(first + count) +
-                     " scans.");
-  }
   constexpr double kPeriod_s = 0.1;
-  for (std::size_t i = first; i < first + count; ++i) {
-    sequence->times_s.push_back(sequence->times_are_measured ? times[i]
-                                                             : static_cast<double>(i) * kPeriod_s);
+  for (const std::size_t frame : frames) {
+    if (sequence->times_are_measured && frame >= times.size()) {
+      throw InputError(path.string() + ": " + std::to_string(times.size()) +
+                       " times; expected one for frame " + std::to_string(frame) + ".");
+    }
+    sequence->times_s.push_back(
+        sequence->times_are_measured ? times[frame] : static_cast<double>(frame) * kPeriod_s);
   }
+}
+
+std::vector<std::size_t> Consecutive(int first, std::size_t count) {
+  std::vector<std::size_t> frames(count);
+  std::iota(frames.begin(), frames.end(), static_cast<std::size_t>(first));
+  return frames;
+}
+
+// The number that a scan of a raw drive has by its name: some drives lack scans, but not their
+// lines of timestamps.txt.
+std::size_t FrameOfName(const std::filesystem::path& scan) {
+  const double number = NumberOf(scan);
+  if (!(number >= 0 && number <= kLargestFrame && number == std::floor(number))) {
+    throw InputError(scan.string() + ": no scan of a raw drive; expected names like " +
+                     "0000000000.bin.");
+  }
+  return static_cast<std::size_t>(number);
+}
+
+int LastFrame(const KittiSequence& kitti) {
+  const std::filesystem::path folder = kitti.ScanPath(0).parent_path();
+  int last = -1;
+  for (const std::filesystem::path& scan : ScansIn(folder)) {
+    const double number = NumberOf(scan);
+    if (number >= 0 && number <= kLargestFrame &&
+        kitti.ScanPath(static_cast<int>(number)) == scan) {
+      last = std::max(last, static_cast<int>(number));
+    }
+  }
+  if (last < 0) {
+    throw InputError(folder.string() + ": no scan; expected 000000.bin, 000001.bin and so on.");
+  }
+  return last;
 }
 
 }  // namespace
@@ -124,10 +164,7 @@ ScanSequence OpenKittiSequence(const std::filesystem::path& root, const std::str
   const KittiSequence kitti(root, name);
   ScanSequence sequence;
   sequence.title = "KITTI " + name;
-  const int last =
-      frames.last >= 0
-          ? frames.last
-          : static_cast<int>(NumberOf(ScansIn(kitti.ScanPath(0).parent_path()).back()));
+  const int last = frames.last >= 0 ? frames.last : LastFrame(kitti);
   for (int frame = frames.first; frame <= last; ++frame) {
     sequence.scans.push_back(kitti.ScanPath(frame));
     if (!std::filesystem::exists(sequence.scans.back())) {
@@ -142,7 +179,7 @@ ScanSequence OpenKittiSequence(const std::filesystem::path& root, const std::str
   }
   const auto first = static_cast<std::size_t>(frames.first);
   const std::filesystem::path times = kitti.CalibrationPath().parent_path() / "times.txt";
-  SetTimes(ReadTimes(times), first, times, &sequence);
+  SetTimes(ReadTimes(times), Consecutive(frames.first, sequence.scans.size()), times, &sequence);
   if (std::filesystem::exists(kitti.CalibrationPath())) {
     sequence.T_camera_lidar = ReadKittiCalibration(kitti.CalibrationPath());
     if (std::filesystem::exists(kitti.PosesPath())) {
@@ -169,21 +206,20 @@ ScanSequence OpenScanFolder(const std::filesystem::path& folder, const FrameRang
     throw InputError(folder.string() + ": " + std::to_string(count) +
                      " scans; expected frames within 0:" + std::to_string(count - 1) + ".");
   }
-  std::vector<double> times;
-  if (is_raw) {
-    times = ReadTimes(raw / "timestamps.txt");
-    if (!times.empty() && times.size() != scans.size()) {
-      throw InputError((raw / "timestamps.txt").string() + ": " + std::to_string(times.size()) +
-                       " times; expected one for each of " + std::to_string(count) + " scans.");
-    }
-    const double start = times.empty() ? 0 : times[0];
-    for (double& time : times) {
-      time -= start;
-    }
-  }
   sequence.scans = {scans.begin() + frames.first,
                     frames.last < 0 ? scans.end() : scans.begin() + frames.last + 1};
-  SetTimes(times, static_cast<std::size_t>(frames.first), raw / "timestamps.txt", &sequence);
+  if (!is_raw) {
+    SetTimes({}, Consecutive(frames.first, sequence.scans.size()), "", &sequence);
+    return sequence;
+  }
+  std::vector<std::size_t> lines(sequence.scans.size());
+  std::transform(sequence.scans.begin(), sequence.scans.end(), lines.begin(), FrameOfName);
+  std::vector<double> times = ReadTimes(raw / "timestamps.txt");
+  const double start = times.empty() ? 0 : times[0];
+  for (double& time : times) {
+    time -= start;
+  }
+  SetTimes(times, lines, raw / "timestamps.txt", &sequence);
   return sequence;
 }
 
