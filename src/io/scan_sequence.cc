@@ -6,6 +6,7 @@
 #include <cmath>
 #include <cstdio>
 #include <fstream>
+#include <limits>
 #include <numeric>
 #include <set>
 
@@ -58,28 +59,23 @@ double ParseTime(const std::string& text) {
   return ParseNumber(text);
 }
 
-// Increasing times, one per line; nothing where there is no file.
+// Increasing times, one per line, NaN where a line is blank: so KITTI marks scans that were lost.
+// Nothing where there is no file.
 std::vector<double> ReadTimes(const std::filesystem::path& path) {
   std::ifstream in(path);
   std::vector<double> times;
-  std::string line;
-  int blank = 0;  // A blank line is fine at the end; between times it would shift the frames.
-  for (int number = 1; std::getline(in, line); ++number) {
+  double last = -std::numeric_limits<double>::infinity();
+  for (std::string line; std::getline(in, line);) {
     line.erase(line.find_last_not_of(" \t\r") + 1);
+    times.push_back(ParseTime(line));
     if (line.empty()) {
-      blank = blank == 0 ? number : blank;
       continue;
     }
-    if (blank > 0) {
-      throw InputError(path.string() + ":" + std::to_string(blank) +
-                       ": a blank line; expected a time per frame.");
-    }
-    const double time = ParseTime(line);
-    if (!std::isfinite(time) || (!times.empty() && !(time > times.back()))) {
-      throw InputError(path.string() + ":" + std::to_string(number) + ": \"" + line +
+    if (!std::isfinite(times.back()) || !(times.back() > last)) {
+      throw InputError(path.string() + ":" + std::to_string(times.size()) + ": \"" + line +
                        "\"; expected a time after the one before.");
     }
-    times.push_back(time);
+    last = times.back();
   }
   return times;
 }
@@ -90,9 +86,9 @@ void SetTimes(const std::vector<double>& times, const std::vector<std::size_t>& 
   sequence->times_are_measured = !times.empty();
   constexpr double kPeriod_s = 0.1;
   for (const std::size_t frame : frames) {
-    if (sequence->times_are_measured && frame >= times.size()) {
-      throw InputError(path.string() + ": " + std::to_string(times.size()) +
-                       " times; expected one for frame " + std::to_string(frame) + ".");
+    if (sequence->times_are_measured && (frame >= times.size() || std::isnan(times[frame]))) {
+      throw InputError(path.string() + ":" + std::to_string(frame + 1) +
+                       ": no time; expected one for frame " + std::to_string(frame) + ".");
     }
     sequence->times_s.push_back(
         sequence->times_are_measured ? times[frame] : static_cast<double>(frame) * kPeriod_s);
@@ -105,8 +101,8 @@ std::vector<std::size_t> Consecutive(int first, std::size_t count) {
   return frames;
 }
 
-// The number that a scan of a raw drive has by its name: some drives lack scans, but not their
-// lines of timestamps.txt.
+// The number that a scan of a raw drive has by its name, which is its line of timestamps.txt: some
+// drives lack scans.
 std::size_t FrameOfName(const std::filesystem::path& scan) {
   const double number = NumberOf(scan);
   if (!(number >= 0 && number <= kLargestFrame && number == std::floor(number))) {
@@ -215,10 +211,10 @@ ScanSequence OpenScanFolder(const std::filesystem::path& folder, const FrameRang
   std::vector<std::size_t> lines(sequence.scans.size());
   std::transform(sequence.scans.begin(), sequence.scans.end(), lines.begin(), FrameOfName);
   std::vector<double> times = ReadTimes(raw / "timestamps.txt");
-  const double start = times.empty() ? 0 : times[0];
-  for (double& time : times) {
-    time -= start;
-  }
+  const auto start =
+      std::find_if(times.begin(), times.end(), [](double t) { return !std::isnan(t); });
+  std::transform(times.begin(), times.end(), times.begin(),
+                 [start_s = start == times.end() ? 0 : *start](double t) { return t - start_s; });
   SetTimes(times, lines, raw / "timestamps.txt", &sequence);
   return sequence;
 }

@@ -145,7 +145,7 @@ TEST_F(ScanSequenceTest, RefusesShortAndMalformedKittiFiles) {
   EXPECT_THAT(KittiMessage({0, 2}), HasSubstr("03.txt: 2 rows; expected a row for frame 2."));
   EXPECT_EQ(OpenKittiSequence(folder_.path(), "03", {0, 1}).T_world_lidar.size(), 2U);
   folder_.Write("sequences/03/times.txt", "0\n0.1\n0.2\n");
-  EXPECT_THAT(KittiMessage({1, 3}), HasSubstr("times.txt: 3 times; expected one for frame 3."));
+  EXPECT_THAT(KittiMessage({1, 3}), HasSubstr("times.txt:4: no time; expected one for frame 3."));
   for (const char* bad : {"0\n0.1\n0.1\n0.2\n", "0\n0.1\nsoon\n0.2\n", "0\n0.1\nnan\n0.2\n",
                           "0\n0.1\n0.2 0.3\n0.4\n"}) {
     folder_.Write("sequences/03/times.txt", bad);
@@ -154,7 +154,7 @@ TEST_F(ScanSequenceTest, RefusesShortAndMalformedKittiFiles) {
         << bad;
   }
   folder_.Write("sequences/03/times.txt", "0\n\n0.1\n0.2\n0.3\n");
-  EXPECT_THAT(KittiMessage(), HasSubstr("times.txt:2: a blank line"));
+  EXPECT_THAT(KittiMessage(), HasSubstr("times.txt:2: no time; expected one for frame 1."));
 }
 
 TEST_F(ScanSequenceTest, OrdersAFolderByNumber) {
@@ -216,17 +216,27 @@ TEST_F(ScanSequenceTest, OpensARawDrive) {
   EXPECT_NEAR(sequence.times_s[1], 0.21, 1e-9);
 }
 
-// KITTI's raw drive 2011_09_26 0009 has no scans 177 to 180, but their times.
+// KITTI's raw drive 2011_09_26 0009 has no scans 177 to 180, and blank lines for their times.
 TEST_F(ScanSequenceTest, GivesRawScansTheTimeOfTheirNumber) {
-  WriteScans("drive/velodyne_points/data", {"0000000000.bin", "0000000001.bin", "0000000003.bin"});
-  EXPECT_THAT(OpenScanFolder(Path("drive")).times_s, ElementsAre(0, 0.1, 3 * 0.1));
-  folder_.Write("drive/velodyne_points/timestamps.txt", "5\n5.25\n5.5\n5.75\n");
-  EXPECT_THAT(OpenScanFolder(Path("drive")).times_s, ElementsAre(0, 0.25, 0.75));
-  EXPECT_THAT(OpenScanFolder(Path("drive"), {2, 2}).times_s, ElementsAre(0.75));
-  folder_.Write("drive/velodyne_points/timestamps.txt", "5\n5.25\n5.5\n");
+  WriteScans("drive/velodyne_points/data", {"0000000001.bin", "0000000002.bin", "0000000004.bin"});
+  EXPECT_THAT(OpenScanFolder(Path("drive")).times_s, ElementsAre(0.1, 0.2, 0.4));
+  const auto write_times = [&](const std::string& text) {
+    folder_.Write("drive/velodyne_points/timestamps.txt", text);
+  };
+  write_times("5\n5.25\n5.5\n5.75\n6.5\n");
+  EXPECT_THAT(OpenScanFolder(Path("drive")).times_s, ElementsAre(0.25, 0.5, 1.5));
+  EXPECT_THAT(OpenScanFolder(Path("drive"), {2, 2}).times_s, ElementsAre(1.5));
+  write_times("\n5.25\n5.5\n\r\n6.5\n");
+  EXPECT_THAT(OpenScanFolder(Path("drive")).times_s, ElementsAre(0, 0.25, 1.25));
+  write_times("5\n5.25\n5.5\n5.75\n");
   EXPECT_THAT(FolderMessage("drive"),
-              EndsWith("timestamps.txt: 3 times; expected one for frame 3."));
-  folder_.Write("drive/velodyne_points/timestamps.txt", "5\n5.25\n2011-09-26\n5.75\n");
+              EndsWith("timestamps.txt:5: no time; expected one for frame 4."));
+  write_times("5\n5.25\n\n5.75\n6.5\n");
+  EXPECT_THAT(FolderMessage("drive"),
+              EndsWith("timestamps.txt:3: no time; expected one for frame 2."));
+  write_times("5\n5.25\n\n5.25\n6.5\n");
+  EXPECT_THAT(FolderMessage("drive"), HasSubstr("timestamps.txt:4: \"5.25\""));
+  write_times("5\n5.25\n2011-09-26\n5.75\n");
   EXPECT_THAT(FolderMessage("drive"), HasSubstr("timestamps.txt:3: \"2011-09-26\""));
   WriteScans("drive/velodyne_points/data", {"copy.bin"});
   EXPECT_THAT(FolderMessage("drive"), HasSubstr("copy.bin: no scan of a raw drive"));
