@@ -5,6 +5,7 @@
 #include <chrono>
 #include <cmath>
 #include <cstdio>
+#include <functional>
 #include <iostream>
 #include <optional>
 
@@ -86,6 +87,15 @@ class Run {
     return ReadPointFile(sequence_.scans[i], &dropped);
   }
 
+  // What the odometry has to say against a scan, with the scan's name.
+  void NamingTheScan(std::size_t i, const std::function<void()>& use) const {
+    try {
+      use();
+    } catch (const InputError& error) {
+      throw InputError(sequence_.scans[i].string() + ": " + error.what());
+    }
+  }
+
   void Replay(std::size_t i) {
     const FrameRecord record = ParseFrameRecord(
         journal_.records()[i], "journal, scan " + sequence_.scans[i].filename().string());
@@ -93,7 +103,8 @@ class Run {
       throw InputError(sequence_.scans[i].string() +
                        ": is not the scan of the journal; expected it unchanged, or --restart.");
     }
-    odometry_.Replay(Read(i), record.result);
+    PointCloud scan = Read(i);
+    NamingTheScan(i, [&] { odometry_.Replay(std::move(scan), record.result); });
     records_.push_back(record);
   }
 
@@ -103,7 +114,7 @@ class Run {
     PointCloud scan = Read(i);
     record.read_s = SecondsSince(start);
     const Clock::time_point read = Clock::now();
-    record.result = odometry_.Add(std::move(scan));
+    NamingTheScan(i, [&] { record.result = odometry_.Add(std::move(scan)); });
     record.odometry_s = SecondsSince(read);
     record.scan_sha256 = Sha256(sequence_.scans[i]);
     journal_.Append(FormatFrameRecord(record));
