@@ -37,6 +37,7 @@ using testing_support::RunProgram;
 using testing_support::SimulatedDrive;
 using testing_support::TemporaryFolder;
 
+constexpr char kProgram[] = ICPSCAPE_BIN_DIR "/icpscape-odometry";
 constexpr int kScans = 12;
 // What must not depend on how often the run was interrupted.
 constexpr const char* kResults[] = {"trajectory_kitti.txt", "trajectory_tum.txt", "frames.csv",
@@ -195,8 +196,7 @@ TEST_F(OdometryApp, WritesAMapOfOnePointAVoxel) {
 
 // Starts the program with its output thrown away.
 pid_t Spawn(const std::vector<std::string>& arguments) {
-  const std::string program = std::string(ICPSCAPE_BIN_DIR) + "/icpscape-odometry";
-  std::vector<char*> argv = {const_cast<char*>(program.c_str())};
+  std::vector<char*> argv = {const_cast<char*>(kProgram)};
   for (const std::string& argument : arguments) {
     argv.push_back(const_cast<char*>(argument.c_str()));
   }
@@ -206,7 +206,7 @@ pid_t Spawn(const std::vector<std::string>& arguments) {
   posix_spawn_file_actions_addopen(&actions, STDOUT_FILENO, "/dev/null", O_WRONLY, 0);
   posix_spawn_file_actions_addopen(&actions, STDERR_FILENO, "/dev/null", O_WRONLY, 0);
   pid_t pid = -1;
-  EXPECT_EQ(posix_spawn(&pid, program.c_str(), &actions, nullptr, argv.data(), environ), 0);
+  EXPECT_EQ(posix_spawn(&pid, kProgram, &actions, nullptr, argv.data(), environ), 0);
   posix_spawn_file_actions_destroy(&actions);
   return pid;
 }
@@ -282,6 +282,7 @@ TEST_F(OdometryApp, GoesOnWithTheSameFlagsAlone) {
   folder_.Write(Scan(1), Bytes(TheDrive().scans[2]));
   ExpectRefusal(Run({frames, "--mode=two_stage"}), 2,
                 "000001.bin: is not the scan of the journal; expected it unchanged, or --restart.");
+  EXPECT_FALSE(std::filesystem::exists(Path("out/manifest.json")));  // The mark of a finished run.
   EXPECT_EQ(Run({frames, "--mode=two_stage", "--restart"}).code, 0);
 
   // Not even --restart takes the folder from a run that is at it.
@@ -408,19 +409,18 @@ TEST_F(OdometryApp, TakesAFolderOfScans) {
             0.03);
 }
 
-TEST_F(OdometryApp, ShowsProgressOnATerminal) {
+// What the program shows on a terminal.
+std::string RunOnTerminal(const std::vector<std::string>& arguments) {
   int terminal = -1;
-  const std::vector<std::string> arguments = Kitti({"--frames=0:3"});
   const pid_t pid = forkpty(&terminal, nullptr, nullptr, nullptr);
-  ASSERT_GE(pid, 0);
+  EXPECT_GE(pid, 0);
   if (pid == 0) {
-    const std::string program = std::string(ICPSCAPE_BIN_DIR) + "/icpscape-odometry";
-    std::vector<char*> argv = {const_cast<char*>(program.c_str())};
+    std::vector<char*> argv = {const_cast<char*>(kProgram)};
     for (const std::string& argument : arguments) {
       argv.push_back(const_cast<char*>(argument.c_str()));
     }
     argv.push_back(nullptr);
-    execv(program.c_str(), argv.data());
+    execv(kProgram, argv.data());
     _exit(127);
   }
   std::string shown;
@@ -432,10 +432,22 @@ TEST_F(OdometryApp, ShowsProgressOnATerminal) {
   int status = 0;
   waitpid(pid, &status, 0);
   EXPECT_EQ(status, 0) << shown;
-  EXPECT_THAT(shown, testing::ContainsRegex("\r\\[#####---------------\\] 1/4 scans, "
-                                            "[0-9.]+/s, [0-9]+ s left"));
-  EXPECT_THAT(shown, testing::ContainsRegex("\\[####################\\] 4/4 scans, "
-                                            "[0-9.]+/s, 0 s left"));
+  return shown;
+}
+
+TEST_F(OdometryApp, ShowsProgressOnATerminal) {
+  const std::vector<std::string> arguments = Kitti({"--frames=0:3"});
+  const auto shows = [](const std::string& bar) {
+    return testing::ContainsRegex("\r\\[" + bar + ", [0-9.]+/s, [0-9]+ s left");
+  };
+  EXPECT_THAT(RunOnTerminal(arguments), AllOf(shows("#####---------------\\] 1/4 scans"),
+                                              shows("####################\\] 4/4 scans")));
+  // The rate of a run that goes on is not that of its replay.
+  std::string journal = ReadFile(Path("out/journal.txt"));
+  journal.resize(journal.rfind('\n', journal.size() - 2) + 1);
+  folder_.Write("out/journal.txt", journal);
+  EXPECT_THAT(RunOnTerminal(arguments), AllOf(shows("####################\\] 3/3 scans replayed"),
+                                              shows("####################\\] 1/1 scans")));
 }
 
 TEST(OdometryCommandLine, HelpsWithItsOwnFlags) {
