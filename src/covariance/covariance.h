@@ -17,6 +17,9 @@ struct CovarianceOptions {
   double ring_bias_m = 0.02;
   /// Edge of the cubes of the target frame whose scores are summed (clustered sandwich).
   double cluster_m = 1;
+  /// Half the distance over which the rematched Hessian is differenced: a translation by this much,
+  /// or a rotation that moves points at 10 m by it. Long enough for pairs to change.
+  double rematching_step_m = 0.02;
 
   /// Throws UsageError naming the value that is out of range.
   void Check() const;
@@ -25,8 +28,11 @@ struct CovarianceOptions {
 /// Sums over an objective's pairs at one pose, from which every estimator is made. g_i is the
 /// gradient of pair i, in T <- T Exp([omega; v]).
 struct CovarianceSums {
-  Mat6 gauss_newton = Mat6::Zero();    ///< H = sum rho' J^T J
-  Mat6 hessian = Mat6::Zero();         ///< A = d^2 cost / d xi^2, exact for these pairs.
+  Mat6 gauss_newton = Mat6::Zero();  ///< H = sum rho' J^T J
+  Mat6 hessian = Mat6::Zero();       ///< A = d^2 cost / d xi^2, exact for these pairs.
+  /// B = d gradient / d xi where every pose has its own pairs; by central differences, not
+  /// symmetric.
+  Mat6 rematched_hessian = Mat6::Zero();
   Mat6 scores = Mat6::Zero();          ///< sum_i g_i g_i^T
   Mat6 cluster_scores = Mat6::Zero();  ///< sum_c G_c G_c^T, G_c = sum_{i in c} g_i
   /// sum_k b_k b_k^T over all points of both clouds, b_k = d (sum_i g_i) / d range_k (a target
@@ -41,8 +47,13 @@ struct CovarianceSums {
   long clusters = 0;
 };
 
+/// Sums over the pairs that belong to the pose, found by up to `threads` threads (the result does
+/// not depend on it).
 CovarianceSums SumForCovariance(const Objective& objective, const SE3d& T_target_source,
-                                const Matches& matches, double cluster_m);
+                                const CovarianceOptions& options, int threads);
+/// The same over given pairs, without the rematched Hessian (left at zero).
+CovarianceSums SumForCovariance(const Objective& objective, const SE3d& T_target_source,
+                                const Matches& matches, const CovarianceOptions& options);
 
 /// The estimators, in the order of the documentation. All are the covariance of xi in
 /// T_true = T Exp(xi), that is [omega; v] in the source frame, rad and m.
@@ -55,16 +66,27 @@ CovarianceSums SumForCovariance(const Objective& objective, const SE3d& T_target
 ///                       independent, each with a noise of its own.
 ///   sandwich_clustered  A^-1 (sum G_c G_c^T) A^-1 [Liang & Zeger 1986]: pairs of one cube are
 ///                       correlated in any way, those of two cubes are not.
-enum class Estimator { kGaussNewton, kCensi, kCensiRingBias, kSandwich, kSandwichClustered };
-constexpr int kEstimators = 5;
+///   sandwich_rematched  B^-1 (sum G_c G_c^T) B^-T: the same where the pairs follow the pose. ICP
+///                       ends where the gradient g(T, z) over the pairs of T itself is zero; by the
+///                       implicit function theorem dT/dz = -B^-1 dg/dz with B = dg/dT, pairs and
+///                       all. Bonnabel et al. 2016 show what goes wrong without.
+enum class Estimator {
+  kGaussNewton,
+  kCensi,
+  kCensiRingBias,
+  kSandwich,
+  kSandwichClustered,
+  kSandwichRematched,
+};
+constexpr int kEstimators = 6;
 const char* EstimatorName(Estimator estimator);
 std::vector<Estimator> AllEstimators();
 
-/// The covariance; nothing where the pairs do not determine all six degrees of freedom (H, or the A
-/// that the estimator needs, has an eigenvalue below 1e-12 of its largest in [L omega; v] with the
-/// rms lever arm L of H): in such a direction the variance is infinite, and a pseudo-inverse would
-/// call it 0. Also nothing where ring biases are asked for and there are no rings, or where no row
-/// is left to estimate s^2 from.
+/// The covariance; nothing where the pairs do not determine all six degrees of freedom: in such a
+/// direction the variance is infinite, and a pseudo-inverse would call it 0. A matrix counts as
+/// singular where, with rotations scaled to the size of translations, an eigenvalue is below 1e-12
+/// of the largest. Also nothing where there is nothing to estimate from: no rings for ring biases,
+/// no row to spare for s^2, fewer than six independent clusters.
 std::optional<Mat6> EstimateCovariance(Estimator estimator, const CovarianceSums& sums,
                                        const CovarianceOptions& options);
 

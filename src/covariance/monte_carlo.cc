@@ -105,8 +105,7 @@ class Experiment {
     const SE3d& T = summary.T_target_source();
     result.iterations = static_cast<int>(summary.iterates.size()) - 1;
     result.error = (T_truth_.Inverse() * T).Log();
-    const CovarianceSums sums =
-        SumForCovariance(objective, T, objective.Match(T, 1), options_.covariance.cluster_m);
+    const CovarianceSums sums = SumForCovariance(objective, T, options_.covariance, 1);
     for (const Estimator estimator : AllEstimators()) {
       result.covariances[static_cast<std::size_t>(estimator)] =
           EstimateCovariance(estimator, sums, options_.covariance);
@@ -154,6 +153,43 @@ std::vector<std::vector<DrawResult>> RunMonteCarlo(const MonteCarloOptions& opti
     }
   });
   return results;
+}
+
+Calibration Calibrate(const std::vector<DrawResult>& draws) {
+  Calibration calibration;
+  std::vector<Vec6> all_errors;
+  for (const DrawResult& draw : draws) {
+    if (draw.usable) {
+      all_errors.push_back(draw.error);
+    } else {
+      ++calibration.failed;
+    }
+  }
+  calibration.errors = StatisticsOf(all_errors);
+  for (const Estimator estimator : AllEstimators()) {
+    EstimatorCalibration entry;
+    entry.estimator = estimator;
+    std::vector<Vec6> errors;
+    std::vector<Mat6> covariances;
+    for (const DrawResult& draw : draws) {
+      const auto& covariance = draw.covariances[static_cast<std::size_t>(estimator)];
+      if (draw.usable && covariance) {
+        errors.push_back(draw.error);
+        covariances.push_back(*covariance);
+      }
+    }
+    entry.draws = static_cast<long>(errors.size());
+    if (entry.draws >= 2) {
+      entry.about_mean = NeesAboutMean(errors, covariances);
+      entry.about_truth = NeesAboutTruth(errors, covariances);
+      entry.deviation_ratio = DeviationRatio(StatisticsOf(errors), covariances);
+      for (const Mat6& covariance : covariances) {
+        entry.mean_covariance += covariance / static_cast<double>(entry.draws);
+      }
+    }
+    calibration.estimators.push_back(entry);
+  }
+  return calibration;
 }
 
 }  // namespace icpscape

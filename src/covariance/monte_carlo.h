@@ -11,6 +11,7 @@
 
 #include "src/cloud/features.h"
 #include "src/cloud/normals.h"
+#include "src/covariance/consistency.h"
 #include "src/covariance/covariance.h"
 #include "src/minimizer/random_starts.h"
 #include "src/objective/objective_set.h"
@@ -61,6 +62,25 @@ struct DrawResult {
 /// Parallel over draws. `progress` (if any) is called with the number done, one call at a time.
 std::vector<std::vector<DrawResult>> RunMonteCarlo(
     const MonteCarloOptions& options, const std::function<void(int)>& progress = nullptr);
+
+/// How one estimator did over the draws that have its covariance.
+struct EstimatorCalibration {
+  Estimator estimator = Estimator::kGaussNewton;
+  long draws = 0;  ///< Fewer than two: the rest is empty.
+  Nees about_mean;
+  Nees about_truth;
+  Vec6 deviation_ratio = Vec6::Zero();  ///< Predicted over actual.
+  Mat6 mean_covariance = Mat6::Zero();
+};
+
+/// One metric's draws.
+struct Calibration {
+  ErrorStatistics errors;  ///< About the truth: their mean is the bias.
+  long failed = 0;         ///< Draws without a usable result, which are left out.
+  std::vector<EstimatorCalibration> estimators;
+};
+/// Throws ComputationError where fewer than two draws have a result.
+Calibration Calibrate(const std::vector<DrawResult>& draws);
 
 }  // namespace icpscape
 

@@ -33,6 +33,12 @@ SE3d FrozenMinimum(const Objective& objective, const Matches& matches, SE3d T) {
   return T;
 }
 
+CovarianceOptions Cubes(double cluster_m) {
+  CovarianceOptions options;
+  options.cluster_m = cluster_m;
+  return options;
+}
+
 void SetPoint(const Vec3& p, std::size_t i, PointCloud* cloud) {
   cloud->x[i] = static_cast<float>(p.x());
   cloud->y[i] = static_cast<float>(p.y());
@@ -90,7 +96,7 @@ class SmallRoom : public testing::Test {
     const ClosestPointMatcher matcher(source_, target_);
     const Objective objective(metric, matcher);
     const Matches matches = objective.Match(kMotion, 1);
-    return SumForCovariance(objective, FrozenMinimum(objective, matches, kMotion), matches, 1);
+    return SumForCovariance(objective, FrozenMinimum(objective, matches, kMotion), matches, {});
   }
 
   const SE3d kMotion = SE3d::Exp((Vec6() << 0.01, -0.005, 0.05, 0.3, 0.05, -0.02).finished());
@@ -104,7 +110,7 @@ TEST_F(SmallRoom, GaussNewtonIsCeresCovariance) {
     const Objective objective(metric, matcher);
     const Matches matches = objective.Match(kMotion, 1);
     const SE3d T = FrozenMinimum(objective, matches, kMotion);
-    const CovarianceSums sums = SumForCovariance(objective, T, matches, 1);
+    const CovarianceSums sums = SumForCovariance(objective, T, matches, {});
     double x[7];
     T.ToParameters(x);
     ceres::Problem problem;
@@ -160,9 +166,10 @@ TEST_F(SmallRoom, ClustersRunFromOnePointToEverything) {
   const Objective objective("point_to_plane", matcher);
   const Matches matches = objective.Match(into_one * kMotion, 1);
   const SE3d T = FrozenMinimum(objective, matches, into_one * kMotion);
-  const CovarianceSums all = SumForCovariance(objective, T, matches, 1000);
+  const CovarianceSums all = SumForCovariance(objective, T, matches, Cubes(1000));
   EXPECT_EQ(all.clusters, 1);
   EXPECT_LE(all.cluster_scores.norm(), 1e-12 * all.scores.norm());
+  EXPECT_FALSE(EstimateCovariance(Estimator::kSandwichClustered, all, CovarianceOptions()));
   std::vector<Vec6> sums(target.size(), Vec6::Zero());
   for (std::size_t i = 0; i < source_.size(); ++i) {
     const auto j = static_cast<std::size_t>(matches.target_index[i]);
@@ -173,7 +180,7 @@ TEST_F(SmallRoom, ClustersRunFromOnePointToEverything) {
   for (const Vec6& sum : sums) {
     expected += sum * sum.transpose();
   }
-  const CovarianceSums by_point = SumForCovariance(objective, T, matches, 0.01);
+  const CovarianceSums by_point = SumForCovariance(objective, T, matches, Cubes(0.01));
   EXPECT_LE((by_point.cluster_scores - expected).norm(), 1e-9 * expected.norm());
 }
 
@@ -209,7 +216,7 @@ TEST_F(SmallRoom, EstimatorsAreConsistentWhereTheirAssumptionsHold) {
     const Objective noisy("point_to_plane", noisy_matcher);
     const SE3d T = FrozenMinimum(noisy, matches, kMotion);
     errors.push_back((kMotion.Inverse() * T).Log());
-    const CovarianceSums sums = SumForCovariance(noisy, T, matches, 0.01);
+    const CovarianceSums sums = SumForCovariance(noisy, T, matches, Cubes(0.01));
     censi.push_back(*EstimateCovariance(Estimator::kCensi, sums, options));
     clustered.push_back(*EstimateCovariance(Estimator::kSandwichClustered, sums, options));
   }
@@ -226,12 +233,61 @@ TEST_F(SmallRoom, WorksUnderALossAndWithEveryEstimator) {
   const Objective objective("symmetric", matcher, MakeLoss("huber", 0.1));
   const Matches matches = objective.Match(kMotion, 1);
   const CovarianceSums sums =
-      SumForCovariance(objective, FrozenMinimum(objective, matches, kMotion), matches, 0.5);
+      SumForCovariance(objective, FrozenMinimum(objective, matches, kMotion), {}, 1);
   for (const Estimator estimator : AllEstimators()) {
     const std::optional<Mat6> covariance = EstimateCovariance(estimator, sums, CovarianceOptions());
     ASSERT_TRUE(covariance) << EstimatorName(estimator);
     EXPECT_GT(covariance->llt().matrixL().determinant(), 0) << EstimatorName(estimator);
   }
+}
+
+// Target points so far apart that no pair changes: following the pose is keeping the pairs.
+TEST(Covariance, RematchedIsClusteredWherePairsStay) {
+  PointCloud target;
+  PointCloud source;
+  std::mt19937 engine(2);
+  std::uniform_real_distribution<double> uniform(-0.05, 0.05);
+  for (int i = 0; i < 6; ++i) {
+    for (int j = 0; j < 6; ++j) {
+      for (int k = 0; k < 2; ++k) {
+        const Vec3 p(3 * i - 7, 3 * j - 8, 3 * k - 1);
+        testing_support::AddPoint(p, &target);
+        testing_support::AddPoint(p + Vec3(uniform(engine), uniform(engine), uniform(engine)),
+                                  &source);
+      }
+    }
+  }
+  const ClosestPointMatcher matcher(source, target);
+  const Objective objective("point_to_point", matcher);
+  const SE3d T = FrozenMinimum(objective, objective.Match(SE3d(), 1), SE3d());
+  const CovarianceSums sums = SumForCovariance(objective, T, {}, 2);
+  EXPECT_LE((sums.rematched_hessian - sums.hessian).norm(), 1e-4 * sums.hessian.norm());
+  const auto clustered = EstimateCovariance(Estimator::kSandwichClustered, sums, {});
+  const auto rematched = EstimateCovariance(Estimator::kSandwichRematched, sums, {});
+  ASSERT_TRUE(clustered && rematched);
+  EXPECT_LE((*clustered - *rematched).norm(), 1e-3 * clustered->norm());
+}
+
+// A wall slides along itself for free, once pairs follow the pose; frozen point-to-point pairs hold
+// it with one row per point [Bonnabel et al. 2016].
+TEST(Covariance, OnlyRematchingSeesThatAWallSlides) {
+  std::mt19937 engine(4);
+  std::uniform_real_distribution<double> uniform(-5, 5);
+  PointCloud clouds[2];
+  for (PointCloud& cloud : clouds) {
+    for (int i = 0; i < 20000; ++i) {
+      testing_support::AddPoint(Vec3(uniform(engine), 4, uniform(engine)), &cloud);
+    }
+  }
+  const ClosestPointMatcher matcher(clouds[0], clouds[1]);
+  const Objective objective("point_to_point", matcher);
+  CovarianceOptions options;
+  options.rematching_step_m = 0.1;  // Beyond the points' spacing of 7 cm.
+  const CovarianceSums sums = SumForCovariance(objective, SE3d(), options, 2);
+  EXPECT_NEAR(sums.hessian(3, 3), 20000, 1);
+  EXPECT_NEAR(sums.hessian(4, 4), 20000, 1);
+  EXPECT_LT(sums.rematched_hessian(3, 3), 0.2 * 20000);
+  EXPECT_NEAR(sums.rematched_hessian(4, 4), 20000, 0.05 * 20000);
 }
 
 TEST(Covariance, UndeterminedProblemsHaveNone) {
@@ -246,14 +302,14 @@ TEST(Covariance, UndeterminedProblemsHaveNone) {
   const ClosestPointMatcher matcher(plane, plane);
   const Objective objective("point_to_plane", matcher);
   const SE3d T(Mat3::Identity(), Vec3(0.01, 0, 0.02));
-  const CovarianceSums sums = SumForCovariance(objective, T, objective.Match(T, 1), 1);
+  const CovarianceSums sums = SumForCovariance(objective, T, {}, 1);
   PointCloud three;
   testing_support::AddPoint(Vec3(1, 0, -1.7), &three);
   testing_support::AddPoint(Vec3(0, 1, -1.7), &three);
   testing_support::AddPoint(Vec3(2, 1, -1.7), &three);
   const ClosestPointMatcher few_matcher(three, plane);
   const Objective few("point_to_plane", few_matcher);
-  const CovarianceSums few_sums = SumForCovariance(few, T, few.Match(T, 1), 1);
+  const CovarianceSums few_sums = SumForCovariance(few, T, {}, 1);
   EXPECT_EQ(few_sums.rows, 3);
   for (const Estimator estimator : AllEstimators()) {
     EXPECT_FALSE(EstimateCovariance(estimator, sums, CovarianceOptions()));
@@ -271,6 +327,9 @@ TEST(Covariance, WarnsWherePairsFollowThePose) {
 TEST(Covariance, RefusesAbsurdOptions) {
   CovarianceOptions options;
   options.cluster_m = 0;
+  EXPECT_THROW(options.Check(), UsageError);
+  options = CovarianceOptions();
+  options.rematching_step_m = 0;
   EXPECT_THROW(options.Check(), UsageError);
   options = CovarianceOptions();
   options.range_noise_m = -1;

@@ -12,7 +12,7 @@ namespace {
 MonteCarloOptions Small() {
   MonteCarloOptions options;
   options.lidar.azimuth_step_deg = 2;
-  options.draws = 4;
+  options.draws = 3;
   options.start.minimizer = PreciseMinimizer();
   options.threads = 2;
   return options;
@@ -28,7 +28,7 @@ TEST(MonteCarlo, IsTheSameForAnyNumberOfThreads) {
   EXPECT_EQ(last, options.draws);
   ASSERT_EQ(one.size(), 2U);
   for (std::size_t m = 0; m < one.size(); ++m) {
-    ASSERT_EQ(one[m].size(), 4U);
+    ASSERT_EQ(one[m].size(), 3U);
     for (std::size_t i = 0; i < one[m].size(); ++i) {
       EXPECT_TRUE(one[m][i].usable);
       EXPECT_EQ(one[m][i].error, two[m][i].error);
