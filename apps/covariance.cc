@@ -3,12 +3,12 @@
 
 #include <gflags/gflags.h>
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <cstdio>
 #include <iostream>
 #include <limits>
-#include <map>
 
 #include "apps/app.h"
 #include "apps/filter_flags.h"
@@ -215,32 +215,32 @@ void ReportDirections(const std::string& metric, const Mat6& hessian, Table* tab
 
 void ReportVerdicts(const std::string& metric, const std::vector<Verdict>& verdicts, Table* table,
                     Manifest* manifest) {
-  std::map<std::string, int> degenerate;
-  std::map<std::string, int> partial;
-  std::vector<std::string> rules;
-  for (const Verdict& verdict : verdicts) {
-    if (degenerate.count(verdict.rule) == 0) {
-      rules.push_back(verdict.rule);
+  std::printf("degeneracy             degenerate  partial  weakest  degenerate where\n");
+  // Six verdicts to a rule.
+  for (std::size_t first = 0; first < verdicts.size(); first += 6) {
+    int degenerate = 0;
+    int partial = 0;
+    const bool above = verdicts[first].rule == "dcreg";  // A condition number; else a strength.
+    double weakest = verdicts[first].value;
+    for (std::size_t i = first; i < first + 6; ++i) {
+      const Verdict& verdict = verdicts[i];
+      degenerate += verdict.localizability == Localizability::kNone ? 1 : 0;
+      partial += verdict.localizability == Localizability::kPartial ? 1 : 0;
+      weakest = above ? std::max(weakest, verdict.value) : std::min(weakest, verdict.value);
+      std::vector<std::string> row = {metric,
+                                      verdict.rule,
+                                      verdict.source,
+                                      Number(verdict.value),
+                                      Number(verdict.threshold),
+                                      LocalizabilityName(verdict.localizability)};
+      AppendNumbers(verdict.direction, &row);
+      table->AddRow(std::move(row));
     }
-    degenerate[verdict.rule] += verdict.localizability == Localizability::kNone ? 1 : 0;
-    partial[verdict.rule] += verdict.localizability == Localizability::kPartial ? 1 : 0;
-    std::vector<std::string> row = {metric,
-                                    verdict.rule,
-                                    verdict.source,
-                                    Number(verdict.value),
-                                    Number(verdict.threshold),
-                                    LocalizabilityName(verdict.localizability)};
-    AppendNumbers(verdict.direction, &row);
-    table->AddRow(std::move(row));
+    const Verdict& verdict = verdicts[first];
+    std::printf("  %-19s %8d of 6 %7d %9.4g  %s %g\n", verdict.rule.c_str(), degenerate, partial,
+                weakest, above ? "above" : "below", verdict.threshold);
+    manifest->SetResult("degenerate_" + metric + "_" + verdict.rule, degenerate);
   }
-  std::printf("degenerate directions of six:");
-  for (const std::string& rule : rules) {
-    std::printf(
-        " %s %d%s", rule.c_str(), degenerate[rule],
-        partial[rule] > 0 ? (" (and " + std::to_string(partial[rule]) + " partial)").c_str() : "");
-    manifest->SetResult("degenerate_" + metric + "_" + rule, degenerate[rule]);
-  }
-  std::printf("\n");
 }
 
 // Registers the pair and says how sure that is.

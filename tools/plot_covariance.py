@@ -80,6 +80,7 @@ def draw_nees(axes, rows):
         mean = float(row["nees_about_mean"])
         truth = float(row["nees_about_truth"])
         axes.plot([6, mean], [place, place], color=color, linewidth=5, solid_capstyle="butt")
+        axes.plot(mean, place, "o", color=color, markersize=5)
         axes.plot(truth, place, "x", color="0.3", markersize=6)
         axes.annotate(f"{mean:,.0f}" if mean >= 100 else f"{mean:.1f}", (mean, place), xytext=(0, 6), textcoords="offset points",
                       ha="center", fontsize=8)
@@ -93,7 +94,7 @@ def draw_nees(axes, rows):
     axes.set_xlim(min(ends) / 2, max(ends) * 3)
     axes.set_yticks(range(len(rows)), [row["estimator"].replace("_", " ") for row in reversed(rows)])
     axes.set_ylim(-0.6, len(rows) - 0.2)
-    axes.set_xlabel("NEES: bar about the mean, x about the truth")
+    axes.set_xlabel("NEES: bar and dot about the mean, x about the truth")
 
 
 def main():
