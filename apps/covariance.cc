@@ -177,19 +177,23 @@ struct PairTables {
 
 void ReportCovariances(const std::string& metric, const CovarianceSums& sums, Table* table) {
   std::printf("standard deviations   rx (mdeg)       ry       rz  tx (mm)       ty       tz\n");
+  const CovarianceOptions options = CovarianceFromFlags();
+  const bool determined = EstimateCovariance(Estimator::kGaussNewton, sums, options).has_value();
   for (const Estimator estimator : AllEstimators()) {
-    const std::optional<Mat6> covariance =
-        EstimateCovariance(estimator, sums, CovarianceFromFlags());
+    const std::optional<Mat6> covariance = EstimateCovariance(estimator, sums, options);
     const Mat6 values =
         covariance ? *covariance : Mat6::Constant(std::numeric_limits<double>::quiet_NaN());
     const Vec6 deviation = values.diagonal().cwiseSqrt();
     if (covariance) {
       PrintDeviations(EstimatorName(estimator), deviation);
     } else {
-      std::printf("  %-19s none: %s\n", EstimatorName(estimator),
-                  estimator == Estimator::kCensiRingBias && !sums.ring_bias
-                      ? "the points have no rings."
-                      : "the pairs do not determine all six degrees of freedom.");
+      const char* reason = "there is too little to estimate it from.";
+      if (!determined) {
+        reason = "the pairs do not determine all six degrees of freedom.";
+      } else if (estimator == Estimator::kCensiRingBias && !sums.ring_bias) {
+        reason = "the points have no rings.";
+      }
+      std::printf("  %-19s none: %s\n", EstimatorName(estimator), reason);
     }
     std::vector<std::string> row = {metric, EstimatorName(estimator)};
     AppendNumbers(deviation, &row);

@@ -52,6 +52,26 @@ TEST_F(CovarianceApp, ReportsOnAPairOfFiles) {
   EXPECT_FALSE(std::filesystem::exists(Path("out/draws.csv")));
 }
 
+TEST_F(CovarianceApp, SaysWhatAPlaneLeavesOpen) {
+  PointCloud plane;
+  for (int i = 0; i < 30; ++i) {
+    for (int j = 0; j < 30; ++j) {
+      testing_support::AddPoint(Vec3(0.3 * i - 4.5, 0.3 * j - 4.5, -1.7), &plane);
+    }
+  }
+  WritePly(folder_.path() / "plane.ply", plane);
+  const Outcome outcome =
+      RunProgram("covariance", {"--source=" + Path("plane.ply"), "--target=" + Path("plane.ply"),
+                                "--metrics=point_to_plane", "--out=" + Path("out")});
+  ASSERT_EQ(outcome.code, 0) << outcome.err;
+  EXPECT_THAT(outcome.out, HasSubstr("do not determine all six degrees of freedom"));
+  int degenerate = 0;
+  for (const auto& row : ReadCsv(Path("out/verdicts.csv"))) {
+    degenerate += row.at("localizability") == "none" ? 1 : 0;
+  }
+  EXPECT_EQ(degenerate, 4 * 3);  // Two translations and a turn, by each of four rules.
+}
+
 TEST(CovarianceDraws, CalibrateAndWarn) {
   const TemporaryFolder folder;
   const std::string out = folder.path().string();
