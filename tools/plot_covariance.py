@@ -94,7 +94,7 @@ def draw_nees(axes, rows):
     axes.set_xlim(min(ends) / 2, max(ends) * 3)
     axes.set_yticks(range(len(rows)), [row["estimator"].replace("_", " ") for row in reversed(rows)])
     axes.set_ylim(-0.6, len(rows) - 0.2)
-    axes.set_xlabel("NEES: bar and dot about the mean, x about the truth")
+    axes.set_xlabel("NEES about the mean (dot), about the truth (x)")
 
 
 def main():
