@@ -5,6 +5,7 @@
 #include <chrono>
 #include <cmath>
 #include <cstdio>
+#include <functional>
 #include <iostream>
 #include <optional>
 
@@ -39,14 +40,17 @@ double SecondsSince(Clock::time_point start) {
 
 // All that the results depend on besides the scans' bytes, whose hashes are in the records.
 std::string JournalHeader(const ScanSequence& sequence) {
-  std::string header = "icpscape-odometry; version=" + Version();
+  std::vector<std::string> parts = {"icpscape-odometry", "version=" + Version()};
   for (const auto& [name, value] : OwnFlagValues()) {
     if (name != "out" && name != "threads" && name != "restart" && name != "write_map_voxel_m" &&
         name != "ground_truth") {
-      header += "; " + name + "=" + value;
+      parts.push_back(name + "=" + value);
     }
   }
-  return header + "; scans=" + std::to_string(sequence.scans.size());
+  parts.push_back("scans=" + std::to_string(sequence.scans.size()));
+  std::string header = Join(parts, "; ");
+  std::replace(header.begin(), header.end(), '\n', ' ');  // A path may have one, a record not.
+  return header;
 }
 
 // Goes through the drive: what the journal has is replayed, the rest is registered and recorded.
@@ -85,6 +89,15 @@ class Run {
     return ReadPointFile(sequence_.scans[i], &dropped);
   }
 
+  // What the odometry has to say against a scan, with the scan's name.
+  void NamingTheScan(std::size_t i, const std::function<void()>& use) const {
+    try {
+      use();
+    } catch (const InputError& error) {
+      throw InputError(sequence_.scans[i].string() + ": " + error.what());
+    }
+  }
+
   void Replay(std::size_t i) {
     const FrameRecord record = ParseFrameRecord(
         journal_.records()[i], "journal, scan " + sequence_.scans[i].filename().string());
@@ -92,7 +105,8 @@ class Run {
       throw InputError(sequence_.scans[i].string() +
                        ": is not the scan of the journal; expected it unchanged, or --restart.");
     }
-    odometry_.Replay(Read(i), record.result);
+    PointCloud scan = Read(i);
+    NamingTheScan(i, [&] { odometry_.Replay(std::move(scan), record.result); });
     records_.push_back(record);
   }
 
@@ -100,11 +114,11 @@ class Run {
     FrameRecord record;
     const Clock::time_point start = Clock::now();
     PointCloud scan = Read(i);
+    record.scan_sha256 = Sha256(sequence_.scans[i]);
     record.read_s = SecondsSince(start);
     const Clock::time_point read = Clock::now();
-    record.result = odometry_.Add(std::move(scan));
+    NamingTheScan(i, [&] { record.result = odometry_.Add(std::move(scan)); });
     record.odometry_s = SecondsSince(read);
-    record.scan_sha256 = Sha256(sequence_.scans[i]);
     journal_.Append(FormatFrameRecord(record));
     records_.push_back(record);
   }
@@ -207,10 +221,8 @@ void RunOdometry() {
   Manifest manifest(AppName());
   RecordFlags(&manifest);
   const ScanSequence sequence = SequenceFromFlags(&manifest);
-  if (FLAGS_restart) {
-    std::filesystem::remove(out / "journal.txt");
-  }
-  Journal journal(out / "journal.txt", JournalHeader(sequence));
+  Journal journal(out / "journal.txt", JournalHeader(sequence),
+                  FLAGS_restart ? Journal::Begin::kAnew : Journal::Begin::kWhereItEnds);
   Run run(sequence, &journal);
   run.Go();
   manifest.AddTiming("odometry");

@@ -14,11 +14,14 @@
 #include "apps/run_flags.h"
 #include "src/common/text.h"
 
+DECLARE_string(reassociation);
 DECLARE_string(weights);
 
 DEFINE_string(mode, "scan_to_map",
               "What a scan is registered to: scan_to_scan (the one before, the paper's), "
-              "scan_to_map, or two_stage (LOAM: the one before, and every few scans the map).");
+              "scan_to_map, or two_stage (LOAM: the one before, and every few scans the map). "
+              "scan_to_map comes with --voxel_m=0.25 (but for metrics of edge and planar points), "
+              "--adaptive_gate_m=2 and --loss=huber where they are not given.");
 DEFINE_double(map_voxel_m, 0.5, "The map keeps one point per voxel of this size (m).");
 DEFINE_double(map_radius_m, 80, "The map forgets what is farther away than this (m).");
 DEFINE_int32(map_scans, 0,
@@ -40,7 +43,9 @@ void SetDefaultsOfMode() {
     if (std::none_of(metrics.begin(), metrics.end(), NeedsFeatures)) {
       gflags::SetCommandLineOptionWithMode("voxel_m", "0.25", gflags::SET_FLAG_IF_DEFAULT);
     }
-    gflags::SetCommandLineOptionWithMode("adaptive_gate_m", "2", gflags::SET_FLAG_IF_DEFAULT);
+    if (FLAGS_reassociation != "every_evaluation") {  // Which compares sums over all pairs.
+      gflags::SetCommandLineOptionWithMode("adaptive_gate_m", "2", gflags::SET_FLAG_IF_DEFAULT);
+    }
     gflags::SetCommandLineOptionWithMode("loss", "huber", gflags::SET_FLAG_IF_DEFAULT);
   }
 }

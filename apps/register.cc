@@ -68,7 +68,7 @@ void PrintDifference(const char* what, const SE3d& T_reference, const SE3d& T) {
               difference.LogRotation().norm() * kDegrees);
 }
 
-void RunStarts(const JointObjective& objective, const SE3d& T_reference, MinimizerOptions options,
+void RunStarts(const JointObjective& objective, const SE3d& T_reference, const MinimizerOptions& options,
                const std::filesystem::path& out, Manifest* manifest) {
   RandomStartOptions starts;
   starts.count = FLAGS_starts;

@@ -22,6 +22,15 @@ std::string Checksum(const std::string& before, const std::string& record) {
   return Sha256OfText(before + "\n" + record).substr(0, kChecksumDigits);
 }
 
+// The line of a record, without its line feed.
+std::string Line(const std::string& checksum_before, const std::string& record) {
+  return record + " " + Checksum(checksum_before, record);
+}
+
+[[noreturn]] void ThrowUnwritable(const std::filesystem::path& path) {
+  throw InputError(path.string() + ": cannot be written; expected a writable folder.");
+}
+
 // "voxel_m=0.25, now voxel_m=0.5": the first part in which two headers differ.
 std::string Difference(const std::string& was, const std::string& is) {
   const auto part = [](const std::string& text, std::size_t begin) {
@@ -36,15 +45,19 @@ std::string Difference(const std::string& was, const std::string& is) {
 
 }  // namespace
 
-Journal::Journal(std::filesystem::path path, const std::string& header) : path_(std::move(path)) {
+Journal::Journal(std::filesystem::path path, const std::string& header, Begin begin)
+    : path_(std::move(path)) {
   CHECK(header.find('\n') == std::string::npos);
   file_ = open(path_.c_str(), O_RDWR | O_CREAT | O_CLOEXEC, 0666);
   if (file_ < 0) {
-    throw InputError(path_.string() + ": cannot be written; expected a writable folder.");
+    ThrowUnwritable(path_);
   }
   try {
     if (flock(file_, LOCK_EX | LOCK_NB) != 0) {
       throw InputError(path_.string() + ": another run writes it; expected another folder.");
+    }
+    if (begin == Begin::kAnew && ftruncate(file_, 0) != 0) {
+      ThrowUnwritable(path_);
     }
     Load(header);
   } catch (...) {
@@ -64,9 +77,11 @@ void Journal::Load(const std::string& header) {
     const std::string line = text.substr(begin, end - begin);
     const std::size_t blank = line.rfind(' ');
     const bool whole = end != std::string::npos && blank != std::string::npos &&
-                       line.substr(blank + 1) == Checksum(checksum_, line.substr(0, blank));
+                       line == Line(checksum_, line.substr(0, blank));
     if (!whole) {
-      if (end != std::string::npos && end + 1 < text.size()) {
+      const bool is_last = end == std::string::npos || end + 1 == text.size();
+      // What is no beginning of our header is not ours to cut off.
+      if (!is_last || (number == 1 && Line("", header).rfind(line, 0) != 0)) {
         throw InputError(path_.string() + ":" + std::to_string(number) +
                          ": damaged; expected an undamaged journal, or another folder.");
       }
@@ -84,7 +99,7 @@ void Journal::Load(const std::string& header) {
     begin = end + 1;
   }
   if (ftruncate(file_, static_cast<off_t>(begin)) != 0 || lseek(file_, 0, SEEK_END) < 0) {
-    throw InputError(path_.string() + ": cannot be written; expected a writable folder.");
+    ThrowUnwritable(path_);
   }
   if (checksum_.empty()) {
     Append(header);
@@ -94,12 +109,11 @@ void Journal::Load(const std::string& header) {
 
 void Journal::Append(const std::string& record) {
   CHECK(record.find('\n') == std::string::npos);
-  const std::string checksum = Checksum(checksum_, record);
-  const std::string line = record + " " + checksum + "\n";
+  const std::string line = Line(checksum_, record) + "\n";
   if (write(file_, line.data(), line.size()) != static_cast<ssize_t>(line.size())) {
     throw InputError(path_.string() + ": cannot be written; expected a disk with space.");
   }
-  checksum_ = checksum;
+  checksum_ = line.substr(line.size() - 1 - kChecksumDigits, kChecksumDigits);
   records_.push_back(record);
 }
 

@@ -17,10 +17,15 @@ namespace icpscape {
 /// header: what the others depend on. A torn last line is dropped.
 class Journal {
  public:
+  enum class Begin {
+    kWhereItEnds,  ///< Goes on behind the records that are there.
+    kAnew,         ///< Drops them, whatever they are.
+  };
+
   /// Opens or creates the file, for this process alone. Throws InputError where it cannot be
-  /// written, is in use, has another header (the message names the first part, separated by "; ",
-  /// that differs), or is damaged before its end.
-  Journal(std::filesystem::path path, const std::string& header);
+  /// written or is in use; and, unless it begins anew, where it has another header (the message
+  /// names the first part, separated by "; ", that differs), or is damaged before its end.
+  Journal(std::filesystem::path path, const std::string& header, Begin begin = Begin::kWhereItEnds);
   ~Journal();
   Journal(const Journal&) = delete;
   Journal& operator=(const Journal&) = delete;

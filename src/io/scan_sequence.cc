@@ -6,6 +6,8 @@
 #include <cmath>
 #include <cstdio>
 #include <fstream>
+#include <limits>
+#include <numeric>
 #include <set>
 
 #include "src/common/error.h"
@@ -14,6 +16,8 @@
 
 namespace icpscape {
 namespace {
+
+constexpr double kLargestFrame = 1e9;
 
 double NumberOf(const std::filesystem::path& scan) { return ParseNumber(scan.stem().string()); }
 
@@ -55,41 +59,73 @@ double ParseTime(const std::string& text) {
   return ParseNumber(text);
 }
 
-// Increasing times, one per line; nothing where there is no file.
+// Increasing times, one per line, NaN where a line is blank: so KITTI marks scans that were lost.
+// Nothing where there is no file.
 std::vector<double> ReadTimes(const std::filesystem::path& path) {
   std::ifstream in(path);
   std::vector<double> times;
-  std::string line;
-  for (int number = 1; std::getline(in, line); ++number) {
+  double last = -std::numeric_limits<double>::infinity();
+  for (std::string line; std::getline(in, line);) {
     line.erase(line.find_last_not_of(" \t\r") + 1);
+    times.push_back(ParseTime(line));
     if (line.empty()) {
       continue;
     }
-    const double time = ParseTime(line);
-    if (!std::isfinite(time) || (!times.empty() && !(time > times.back()))) {
-      throw InputError(path.string() + ":" + std::to_string(number) + ": \"" + line +
+    if (!std::isfinite(times.back()) || !(times.back() > last)) {
+      throw InputError(path.string() + ":" + std::to_string(times.size()) + ": \"" + line +
                        "\"; expected a time after the one before.");
     }
-    times.push_back(time);
+    last = times.back();
   }
   return times;
 }
 
-// Of the scans [first, first + count) of `times`; made up where there are none.
-void SetTimes(const std::vector<double>& times, std::size_t first,
+// Of the scans, whose frames these are: line by line of `times`; made up where there are none.
+void SetTimes(const std::vector<double>& times, const std::vector<std::size_t>& frames,
               const std::filesystem::path& path, ScanSequence* sequence) {
-  const std::size_t count = sequence->scans.size();
   sequence->times_are_measured = !times.empty();
-  if (sequence->times_are_measured && times.size() < first + count) {
-    throw InputError(path.string() + ": " + std::to_string(times.size()) +
-                     " times; expected one for each of " + std::to_string(first + count) +
-                     " scans.");
-  }
   constexpr double kPeriod_s = 0.1;
-  for (std::size_t i = first; i < first + count; ++i) {
-    sequence->times_s.push_back(sequence->times_are_measured ? times[i]
-                                                             : static_cast<double>(i) * kPeriod_s);
+  for (const std::size_t frame : frames) {
+    if (sequence->times_are_measured && (frame >= times.size() || std::isnan(times[frame]))) {
+      throw InputError(path.string() + ":" + std::to_string(frame + 1) +
+                       ": no time; expected one for frame " + std::to_string(frame) + ".");
+    }
+    sequence->times_s.push_back(
+        sequence->times_are_measured ? times[frame] : static_cast<double>(frame) * kPeriod_s);
   }
+}
+
+std::vector<std::size_t> Consecutive(int first, std::size_t count) {
+  std::vector<std::size_t> frames(count);
+  std::iota(frames.begin(), frames.end(), static_cast<std::size_t>(first));
+  return frames;
+}
+
+// The number that a scan of a raw drive has by its name, which is its line of timestamps.txt: some
+// drives lack scans.
+std::size_t FrameOfName(const std::filesystem::path& scan) {
+  const double number = NumberOf(scan);
+  if (!(number >= 0 && number <= kLargestFrame && number == std::floor(number))) {
+    throw InputError(scan.string() + ": no scan of a raw drive; expected names like " +
+                     "0000000000.bin.");
+  }
+  return static_cast<std::size_t>(number);
+}
+
+int LastFrame(const KittiSequence& kitti) {
+  const std::filesystem::path folder = kitti.ScanPath(0).parent_path();
+  int last = -1;
+  for (const std::filesystem::path& scan : ScansIn(folder)) {
+    const double number = NumberOf(scan);
+    if (number >= 0 && number <= kLargestFrame &&
+        kitti.ScanPath(static_cast<int>(number)) == scan) {
+      last = std::max(last, static_cast<int>(number));
+    }
+  }
+  if (last < 0) {
+    throw InputError(folder.string() + ": no scan; expected 000000.bin, 000001.bin and so on.");
+  }
+  return last;
 }
 
 }  // namespace
@@ -126,10 +162,7 @@ ScanSequence OpenKittiSequence(const std::filesystem::path& root, const std::str
   const bool is_simulated =
       std::filesystem::exists(kitti.CalibrationPath().parent_path() / "simulation.json");
   sequence.title = (is_simulated ? "simulated " : "KITTI ") + name;
-  const int last =
-      frames.last >= 0
-          ? frames.last
-          : static_cast<int>(NumberOf(ScansIn(kitti.ScanPath(0).parent_path()).back()));
+  const int last = frames.last >= 0 ? frames.last : LastFrame(kitti);
   for (int frame = frames.first; frame <= last; ++frame) {
     sequence.scans.push_back(kitti.ScanPath(frame));
     if (!std::filesystem::exists(sequence.scans.back())) {
@@ -144,7 +177,7 @@ ScanSequence OpenKittiSequence(const std::filesystem::path& root, const std::str
   }
   const auto first = static_cast<std::size_t>(frames.first);
   const std::filesystem::path times = kitti.CalibrationPath().parent_path() / "times.txt";
-  SetTimes(ReadTimes(times), first, times, &sequence);
+  SetTimes(ReadTimes(times), Consecutive(frames.first, sequence.scans.size()), times, &sequence);
   if (std::filesystem::exists(kitti.CalibrationPath())) {
     sequence.T_camera_lidar = ReadKittiCalibration(kitti.CalibrationPath());
     if (std::filesystem::exists(kitti.PosesPath())) {
@@ -171,21 +204,20 @@ ScanSequence OpenScanFolder(const std::filesystem::path& folder, const FrameRang
     throw InputError(folder.string() + ": " + std::to_string(count) +
                      " scans; expected frames within 0:" + std::to_string(count - 1) + ".");
   }
-  std::vector<double> times;
-  if (is_raw) {
-    times = ReadTimes(raw / "timestamps.txt");
-    if (!times.empty() && times.size() != scans.size()) {
-      throw InputError((raw / "timestamps.txt").string() + ": " + std::to_string(times.size()) +
-                       " times; expected one for each of " + std::to_string(count) + " scans.");
-    }
-    const double start = times.empty() ? 0 : times[0];
-    for (double& time : times) {
-      time -= start;
-    }
-  }
   sequence.scans = {scans.begin() + frames.first,
                     frames.last < 0 ? scans.end() : scans.begin() + frames.last + 1};
-  SetTimes(times, static_cast<std::size_t>(frames.first), raw / "timestamps.txt", &sequence);
+  if (!is_raw) {
+    SetTimes({}, Consecutive(frames.first, sequence.scans.size()), "", &sequence);
+    return sequence;
+  }
+  std::vector<std::size_t> lines(sequence.scans.size());
+  std::transform(sequence.scans.begin(), sequence.scans.end(), lines.begin(), FrameOfName);
+  std::vector<double> times = ReadTimes(raw / "timestamps.txt");
+  const auto start =
+      std::find_if(times.begin(), times.end(), [](double t) { return !std::isnan(t); });
+  std::transform(times.begin(), times.end(), times.begin(),
+                 [start_s = start == times.end() ? 0 : *start](double t) { return t - start_s; });
+  SetTimes(times, lines, raw / "timestamps.txt", &sequence);
   return sequence;
 }
 

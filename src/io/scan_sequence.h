@@ -43,8 +43,9 @@ ScanSequence OpenKittiSequence(const std::filesystem::path& root, const std::str
 
 /// A folder of .bin, .pcd or .ply files, by number where all names are numbers, else by name; or a
 /// raw drive of KITTI's, with velodyne_points/data and, where it is there,
-/// velodyne_points/timestamps.txt. Frames count from 0. Throws InputError where there is no scan,
-/// more than one kind of file, fewer frames than asked for, or a malformed time.
+/// velodyne_points/timestamps.txt. Frames count the scans that are there from 0; the time of a raw
+/// scan is the line of its number (drives can lack scans). Throws InputError where there is no
+/// scan, more than one kind of file, fewer frames than asked for, or a missing or malformed time.
 ScanSequence OpenScanFolder(const std::filesystem::path& folder, const FrameRange& frames = {});
 
 }  // namespace icpscape

@@ -1,7 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "src/odometry/frame_record.h"
 
+#include <algorithm>
 #include <cmath>
+#include <limits>
+#include <type_traits>
 #include <vector>
 
 #include "src/common/error.h"
@@ -24,6 +27,17 @@ void ForEachNumber(Record& record, const Visit& visit) {
   visit(result.map_points);
   visit(record.read_s);
   visit(record.odometry_s);
+}
+
+// The largest value of a type of whole numbers; none of ours is below 0.
+template <class T>
+double Largest() {
+  if constexpr (std::is_enum_v<T>) {
+    return static_cast<double>(Termination::kFailure);
+  } else {
+    constexpr double kLargestExact = 0x1p53;
+    return std::min(static_cast<double>(std::numeric_limits<T>::max()), kLargestExact);
+  }
 }
 
 // Row by row, as the doubles are: nothing is normalised on the way.
@@ -50,26 +64,36 @@ FrameRecord ParseFrameRecord(const std::string& text, const std::string& place) 
   const std::vector<std::string> words = Split(text, ' ');
   std::size_t next = 1;
   bool good = true;
-  const auto number = [&] {
-    const double value = next < words.size() ? ParseNumber(words[next]) : NAN;
-    good = good && (std::isfinite(value) || (next < words.size() && words[next] == "nan"));
+  const auto number = [&](bool may_be_nan) {
+    const std::string word = next < words.size() ? words[next] : "";
+    const double value = ParseNumber(word);
+    good = good && (std::isfinite(value) || (may_be_nan && word == "nan"));
     ++next;
     return value;
+  };
+  const auto read = [&](auto& value) {
+    using T = std::decay_t<decltype(value)>;
+    if constexpr (std::is_floating_point_v<T>) {
+      value = number(true);
+    } else {
+      const double whole = number(false);
+      good = good && whole >= 0 && whole <= Largest<T>() && whole == std::floor(whole);
+      value = good ? static_cast<T>(whole) : T();
+    }
   };
   const auto pose = [&] {
     Mat3 R;
     Vec3 t;
     for (int row = 0; row < 3; ++row) {
       for (int column = 0; column < 4; ++column) {
-        (column < 3 ? R(row, column) : t[row]) = number();
+        (column < 3 ? R(row, column) : t[row]) = number(false);
       }
     }
     return SE3d(R, t);
   };
   FrameRecord record;
   record.scan_sha256 = words.empty() ? "" : words[0];
-  ForEachNumber(record,
-                [&](auto& value) { value = static_cast<std::decay_t<decltype(value)>>(number()); });
+  ForEachNumber(record, read);
   record.result.T_world_lidar = pose();
   record.result.motion = pose();
   if (!good || next != words.size()) {

@@ -45,6 +45,18 @@ OdometryMode OdometryModeFromName(const std::string& name) {
 }
 
 void OdometryOptions::Check() const {
+  if (!weights.empty() && weights.size() != metrics.size()) {
+    throw UsageError(std::to_string(weights.size()) + " weights for " +
+                     std::to_string(metrics.size()) + " metrics; expected one for each, or none.");
+  }
+  if (map_every < 1) {
+    throw UsageError("map_every is " + std::to_string(map_every) + "; expected at least 1.");
+  }
+  if (adaptive_gate_m > 0 && minimizer.reassociation == Reassociation::kEveryEvaluation) {
+    throw UsageError(
+        "the adaptive gate rejects pairs, and every_evaluation compares sums over all of them: "
+        "expected every_step, or no adaptive gate.");
+  }
   if (mode != OdometryMode::kScanToScan && filters.Any() && AnyFeatures(metrics)) {
     throw UsageError(
         "filters compare two scans, and maps of edges and planar points are none; expected no "
@@ -152,7 +164,10 @@ FrameResult Odometry::Add(PointCloud scan) {
     result.motion = T_predicted;
     SE3d T_last_current = T_predicted;
     const auto take_over = [&](const Registration& registration) {
-      result.registered = registration.usable;
+      if (!registration.usable) {
+        LOG(WARNING) << "scan " << size_ << ": " << registration.message;
+      }
+      result.registered = result.registered || registration.usable;
       result.termination = registration.termination;
       result.iterations += registration.iterations;
       result.n = registration.n;
@@ -168,8 +183,7 @@ FrameResult Odometry::Add(PointCloud scan) {
         take_over(RegisterToMap(*current, T_last_current, &result));
       }
     } catch (const ComputationError& error) {  // A filter or a metric was left without a point.
-      result.registered = false;
-      LOG(WARNING) << error.what();
+      LOG(WARNING) << "scan " << size_ << ": " << error.what();
     }
     if (options_.mode == OdometryMode::kScanToMap) {
       result.motion = T_last_current;

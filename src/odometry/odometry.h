@@ -50,7 +50,9 @@ struct FrameResult {
   /// Motion since the scan before, T_previous_current, as the predictor takes it: in kTwoStage
   /// before the map's correction.
   SE3d motion;
-  bool registered = false;  ///< False for the first scan, and where the prediction had to stand in.
+  /// Whether a stage had an answer. False for the first scan, and where the prediction had to stand
+  /// in.
+  bool registered = false;
   Termination termination = Termination::kFailure;
   int iterations = 0;          ///< Of all stages.
   long n = 0;                  ///< Pairs of the last stage, at its end.

@@ -10,7 +10,7 @@ void VoxelMap::Insert(const PointCloud& scan, const SE3d& T_map_scan, int scan_n
   for (std::size_t i = 0; i < scan.size(); ++i) {
     const Vec3 p = T_map_scan * scan.Point(i);
     const std::uint64_t voxel = VoxelKey(p.cast<float>(), voxel_m_, "the map's frame");
-    if (voxels_.emplace(voxel, static_cast<std::uint32_t>(points_.size())).second) {
+    if (voxels_.insert(voxel).second) {
       Eigen::Vector3f n = Eigen::Vector3f::Zero();
       if (scan.has_normals()) {
         n = (T_map_scan.R() * scan.Normal(i)).cast<float>();

@@ -3,8 +3,7 @@
 #define ICPSCAPE_SRC_ODOMETRY_VOXEL_MAP_H_
 
 #include <cstdint>
-#include <limits>
-#include <unordered_map>
+#include <unordered_set>
 #include <vector>
 
 #include "src/cloud/point_cloud.h"
@@ -44,7 +43,7 @@ class VoxelMap {
 
   double voxel_m_;
   std::vector<MapPoint> points_;
-  std::unordered_map<std::uint64_t, std::uint32_t> voxels_;
+  std::unordered_set<std::uint64_t> voxels_;  // Those of the points.
   bool has_normals_ = true;
 };
 

@@ -44,6 +44,34 @@ TEST(Features, SplitAtTheThreshold) {
   EXPECT_EQ(ExtractFeatures(cloud, options, 1).num_planar, 1990U);
 }
 
+// The classes of the points that a filter keeps are those that they had in the whole scan.
+TEST(Features, FollowTheirPoints) {
+  const PointCloud cloud = SpikyRing(2000, 2);
+  const Features features = ExtractFeatures(cloud, {}, 1);
+  std::vector<char> keep(cloud.size(), 0);
+  std::vector<std::size_t> kept;
+  for (std::size_t i = 0; i < cloud.size(); ++i) {
+    if (i % 7 < 3) {
+      keep[i] = 1;
+      kept.push_back(i);
+    }
+  }
+  const Features selected = features.Select(keep);
+  ASSERT_EQ(selected.edge.size(), kept.size());
+  ASSERT_EQ(selected.planar.size(), kept.size());
+  std::size_t edges = 0, planar = 0;
+  for (std::size_t k = 0; k < kept.size(); ++k) {
+    EXPECT_EQ(selected.edge[k], features.edge[kept[k]]);
+    EXPECT_EQ(selected.planar[k], features.planar[kept[k]]);
+    edges += selected.edge[k] != 0 ? 1U : 0U;
+    planar += selected.planar[k] != 0 ? 1U : 0U;
+  }
+  EXPECT_GT(edges, 5U);
+  EXPECT_EQ(selected.num_edge, edges);
+  EXPECT_EQ(selected.num_planar, planar);
+  EXPECT_TRUE(Features().Select(keep).edge.empty());  // Where none were needed.
+}
+
 TEST(Features, TakeTheThresholdsOfTheirConvention) {
   for (const auto formula : {SmoothnessFormula::kPrinted, SmoothnessFormula::kALoam}) {
     const FeatureOptions options = ConventionalFeatureOptions(formula);
