@@ -11,9 +11,9 @@
 #include <limits>
 
 #include "apps/app.h"
-#include "apps/pair_filters.h"
 #include "apps/lidar_flags.h"
 #include "apps/objective_flags.h"
+#include "apps/pair_filters.h"
 #include "apps/pair_flags.h"
 #include "src/common/error.h"
 #include "src/common/text.h"

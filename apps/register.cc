@@ -68,8 +68,9 @@ void PrintDifference(const char* what, const SE3d& T_reference, const SE3d& T) {
               difference.LogRotation().norm() * kDegrees);
 }
 
-void RunStarts(const JointObjective& objective, const SE3d& T_reference, const MinimizerOptions& options,
-               const std::filesystem::path& out, Manifest* manifest) {
+void RunStarts(const JointObjective& objective, const SE3d& T_reference,
+               const MinimizerOptions& options, const std::filesystem::path& out,
+               Manifest* manifest) {
   RandomStartOptions starts;
   starts.count = FLAGS_starts;
   starts.translation_m = FLAGS_start_m;
