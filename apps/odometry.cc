@@ -40,15 +40,17 @@ double SecondsSince(Clock::time_point start) {
 
 // All that the results depend on besides the scans' bytes, whose hashes are in the records.
 std::string JournalHeader(const ScanSequence& sequence) {
-  std::string header = "icpscape-odometry; version=" + Version();
+  std::vector<std::string> parts = {"icpscape-odometry", "version=" + Version()};
   for (const auto& [name, value] : OwnFlagValues()) {
     if (name != "out" && name != "threads" && name != "restart" && name != "write_map_voxel_m" &&
         name != "ground_truth") {
-      header += "; " + name + "=" + value;
+      parts.push_back(name + "=" + value);
     }
   }
+  parts.push_back("scans=" + std::to_string(sequence.scans.size()));
+  std::string header = Join(parts, "; ");
   std::replace(header.begin(), header.end(), '\n', ' ');  // A path may have one, a record not.
-  return header + "; scans=" + std::to_string(sequence.scans.size());
+  return header;
 }
 
 // Goes through the drive: what the journal has is replayed, the rest is registered and recorded.
@@ -114,11 +116,11 @@ class Run {
     FrameRecord record;
     const Clock::time_point start = Clock::now();
     PointCloud scan = Read(i);
+    record.scan_sha256 = Sha256(sequence_.scans[i]);
     record.read_s = SecondsSince(start);
     const Clock::time_point read = Clock::now();
     NamingTheScan(i, [&] { record.result = odometry_.Add(std::move(scan)); });
     record.odometry_s = SecondsSince(read);
-    record.scan_sha256 = Sha256(sequence_.scans[i]);
     journal_.Append(FormatFrameRecord(record));
     records_.push_back(record);
   }

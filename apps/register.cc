@@ -68,8 +68,9 @@ void PrintDifference(const char* what, const SE3d& T_reference, const SE3d& T) {
               difference.LogRotation().norm() * kDegrees);
 }
 
-void RunStarts(const JointObjective& objective, const SE3d& T_reference, MinimizerOptions options,
-               const std::filesystem::path& out, Manifest* manifest) {
+void RunStarts(const JointObjective& objective, const SE3d& T_reference,
+               const MinimizerOptions& options, const std::filesystem::path& out,
+               Manifest* manifest) {
   RandomStartOptions starts;
   starts.count = FLAGS_starts;
   starts.translation_m = FLAGS_start_m;
@@ -158,10 +159,16 @@ void Register() {
       RunStarts(objective, check->T_refined, options, out, &manifest);
     }
   }
+  const bool drawn =
+      RunPlotScript("plot_iterations.py",
+                    {(out / "iterations.csv").string(), "--out", (out / "iterations").string(),
+                     "--title", pair.title + "\n" + objective.Name()});
+  manifest.AddTiming("figures");
   manifest.Write(out / "manifest.json");
   std::cout << "time: " << manifest.TimingsText() << '\n';
-  std::cout << "written: " << (out / "T_target_source.txt").string()
-            << ", iterations.csv, aligned.ply (the source, moved onto the target)"
+  std::cout << "written: " << (out / "T_target_source.txt").string() << ", iterations.csv"
+            << (drawn ? ", iterations.svg, iterations.png" : "")
+            << ", aligned.ply (the source, moved onto the target)"
             << (FLAGS_starts > 0 ? ", starts.csv" : "") << ", manifest.json\n";
 }
 

@@ -16,13 +16,15 @@
 #include "src/simulation/dataset.h"
 #include "src/simulation/drive.h"
 #include "src/simulation/random.h"
+#include "src/simulation/route.h"
 #include "src/simulation/scenes.h"
 #include "src/simulation/simulator.h"
 
 DEFINE_string(scene, "",
               "Scene to scan three times, with the paper's motion: straight_street, right_turn, "
-              "highway, highway_overtaking, or all. Scan 2 is the source, scan 1 the target.");
-DEFINE_string(kitti_root, "", "Folder of the KITTI poses and calibration, for a long drive.");
+              "highway, highway_overtaking, or all; scan 2 is the source, scan 1 the target. Or "
+              "town: a drive of 228 m.");
+DEFINE_string(kitti_root, "", "Or: folder of the KITTI poses and calibration, for a long drive.");
 DEFINE_string(sequence, "07", "KITTI sequence to drive along, with --kitti_root.");
 DEFINE_string(frames, "",
               "First and last frame of the drive, as in 0:99; none is the whole sequence.");
@@ -34,6 +36,8 @@ DECLARE_int32(seed);
 
 namespace icpscape {
 namespace {
+
+constexpr char kTown[] = "town";
 
 // All that a scan depends on besides its index. The program itself belongs to it: while it is being
 // developed, its version does not tell one build from another.
@@ -81,12 +85,10 @@ void WriteScene(const std::string& name) {
       -kScanPeriodS);
 }
 
-void WriteDrive(const FrameRange& frames) {
-  const KittiSequence sequence(FLAGS_kitti_root, FLAGS_sequence);
-  const std::vector<SE3d> poses = sequence.LidarPoses();
+void WriteDrive(const std::string& name, const std::vector<SE3d>& poses, const FrameRange& frames) {
   const int count = static_cast<int>(poses.size());
   if (frames.first >= count || frames.last >= count) {
-    throw UsageError("--frames=" + FLAGS_frames + ": sequence " + FLAGS_sequence +
+    throw UsageError("--frames=" + FLAGS_frames + ": drive " + name +
                      " has frames 0:" + std::to_string(count - 1) + "; expected a range within.");
   }
   // The whole route makes the town: part of a drive is the same as within the whole.
@@ -98,8 +100,8 @@ void WriteDrive(const FrameRange& frames) {
     route += FormatTransform(T);
   }
   Write(
-      FLAGS_sequence,
-      Parameters("drive " + FLAGS_sequence + " from frame " + std::to_string(frames.first) +
+      name,
+      Parameters("drive " + name + " from frame " + std::to_string(frames.first) +
                  " on a route of hash " + std::to_string(std::hash<std::string>()(route))),
       {first, last}, [&] { return MakeDrive(poses, MixKeys(SeedFromFlags(), 1)).world; }, 0);
 }
@@ -116,11 +118,17 @@ void Simulate() {
   LidarFromFlags();
   SeedFromFlags();
   if (drive) {
-    WriteDrive(frames);
+    WriteDrive(FLAGS_sequence, KittiSequence(FLAGS_kitti_root, FLAGS_sequence).LidarPoses(),
+               frames);
+    return;
+  }
+  if (FLAGS_scene == kTown) {
+    WriteDrive(kTown, TownRoute(), frames);
     return;
   }
   if (!FLAGS_frames.empty()) {
-    throw UsageError("--frames belongs to a long drive: expected --kitti_root with it.");
+    throw UsageError(
+        "--frames belongs to a drive: expected --kitti_root, or --scene=town, with it.");
   }
   const std::vector<std::string> names =
       FLAGS_scene == "all" ? SceneNames() : std::vector<std::string>{FLAGS_scene};

@@ -8,6 +8,7 @@ find_package(TBB REQUIRED)
 find_package(embree 3 REQUIRED)
 find_package(OpenSSL REQUIRED COMPONENTS Crypto)
 find_package(nlohmann_json REQUIRED)
+find_package(Boost 1.74 REQUIRED)  # Chi-square quantiles; headers alone.
 find_package(PCL 1.12 REQUIRED COMPONENTS common io)
 
 # PCL's own target asks every user for SSE4 flags and for VTK; reading files needs neither.

@@ -9,7 +9,7 @@ packages=(
   g++ cmake ninja-build ccache git pkg-config ca-certificates
   # libraries
   libeigen3-dev libceres-dev libgoogle-glog-dev libgflags-dev libpcl-dev
-  libtbb-dev libembree-dev libssl-dev nlohmann-json3-dev
+  libtbb-dev libembree-dev libssl-dev nlohmann-json3-dev libboost-dev
   # tests
   libgtest-dev libgmock-dev libnanoflann-dev
   # figures

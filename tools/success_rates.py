@@ -3,7 +3,8 @@
 """Prints how often registration succeeds from random starts, as a table for docs/.
 
 Runs icpscape-register --starts on every simulated scene, and on KITTI's 00/15, 00/95 and 07/2 where
---kitti_root is given, for every metric and way to re-associate that is asked for.
+--kitti_root is given, for every metric and way to re-associate that is asked for. With one way to
+re-associate the table has a column for each metric.
 """
 import argparse
 import csv
@@ -44,11 +45,31 @@ def main():
     if flags.kitti_root:
         inputs += [(f"KITTI {s}/{f}", [f"--kitti_root={flags.kitti_root}", f"--sequence={s}",
                                        f"--frame={f}"]) for s, f in KITTI]
+    metrics, modes = flags.metrics.split(","), flags.reassociation.split(",")
+    if len(modes) == 1:
+        print_rates(flags, inputs, metrics, modes[0])
+    else:
+        print_comparison(flags, inputs, metrics, modes)
+
+
+def print_rates(flags, inputs, metrics, mode):
+    """Pairs down, metrics across: success in percent, and the mean number of steps."""
+    print("| Pair | " + " | ".join(metrics) + " |")
+    print("|---|" + "---|" * len(metrics))
+    for name, arguments in inputs:
+        cells = []
+        for metric in metrics:
+            percent, steps, _ = run(flags.register, arguments, metric, mode, flags.starts)
+            cells.append(f"{percent:.1f} ({steps:.1f})")
+        print(f"| {name} | " + " | ".join(cells) + " |", flush=True)
+
+
+def print_comparison(flags, inputs, metrics, modes):
     print("| Pair | Metric | Re-association | Success, % | Steps, mean | ms a start |")
     print("|---|---|---|---|---|---|")
     for name, arguments in inputs:
-        for metric in flags.metrics.split(","):
-            for mode in flags.reassociation.split(","):
+        for metric in metrics:
+            for mode in modes:
                 percent, steps, ms = run(flags.register, arguments, metric, mode, flags.starts)
                 print(f"| {name} | {metric} | {mode} | {percent:.1f} | {steps:.1f} | {ms:.0f} |",
                       flush=True)

@@ -159,7 +159,9 @@ ScanSequence OpenKittiSequence(const std::filesystem::path& root, const std::str
                                const FrameRange& frames) {
   const KittiSequence kitti(root, name);
   ScanSequence sequence;
-  sequence.title = "KITTI " + name;
+  const bool is_simulated =
+      std::filesystem::exists(kitti.CalibrationPath().parent_path() / "simulation.json");
+  sequence.title = (is_simulated ? "simulated " : "KITTI ") + name;
   const int last = frames.last >= 0 ? frames.last : LastFrame(kitti);
   for (int frame = frames.first; frame <= last; ++frame) {
     sequence.scans.push_back(kitti.ScanPath(frame));

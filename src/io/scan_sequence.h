@@ -35,8 +35,9 @@ struct ScanSequence {
 };
 
 /// A sequence of the KITTI odometry benchmark (see KittiSequence): its scans, and its times, poses
-/// and calibration where their files are there. Frames are the numbers of the scans. Throws
-/// InputError where a scan of the range is missing, or a file is malformed or too short.
+/// and calibration where their files are there; or one that icpscape-simulate wrote. Frames are the
+/// numbers of the scans. Throws InputError where a scan of the range is missing, or a file is
+/// malformed or too short.
 ScanSequence OpenKittiSequence(const std::filesystem::path& root, const std::string& sequence,
                                const FrameRange& frames = {});
 

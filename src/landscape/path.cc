@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "src/common/text.h"
+#include "src/common/vehicle.h"
 
 namespace icpscape {
 namespace {

@@ -20,10 +20,6 @@ enum class PathKind {
   kBicycle,
 };
 
-/// How far the sensor sits in front of the rear axle, for kBicycle: in KITTI's official poses the
-/// point that turns without side slip lies 0.61 to 0.68 m behind the lidar (sequences 05 to 08).
-inline constexpr double kSensorAheadOfRearAxle_m = 0.65;
-
 /// Names in the order of the enum: lerp_slerp, geodesic, bicycle. Throws UsageError for others.
 PathKind PathKindFromName(const std::string& name);
 const std::vector<std::string>& PathKindNames();
@@ -32,8 +28,8 @@ const std::vector<std::string>& PathKindNames();
 /// [0, 1] it extrapolates. The shorter way round is taken; R_0^T R_1 must turn by less than pi.
 ///
 /// The bicycle, in the sensor's frame at T_0 (x forward, y left, z up): with D = T_0^-1 T_1, psi
-/// its yaw, l the sensor's lead over the rear axle and s the length of the axle's arc, the sensor
-/// moves with the constant body twist
+/// its yaw, l = kSensorAheadOfRearAxle_m and s the length of the axle's arc, the sensor moves with
+/// the constant body twist
 ///   b = [0, 0, psi; s, psi l, 0],   s = (D_x cos(psi/2) + D_y sin(psi/2)) (psi/2) / sin(psi/2),
 /// the axle's chord being along psi/2. What no such car can do (z, roll, pitch, side slip) is added
 /// behind it as a geodesic, so that T_1 is met exactly:

@@ -12,7 +12,7 @@ namespace icpscape {
 struct FrameRecord {
   FrameResult result;
   std::string scan_sha256;  ///< Of the scan's file.
-  double read_s = 0;        ///< Time to read the file, ...
+  double read_s = 0;        ///< Time to read the file and its hash, ...
   double odometry_s = 0;    ///< ... and to prepare, register and map the scan.
 };
 

@@ -21,13 +21,15 @@ Simulator::Simulator(World world, const LidarOptions& options, std::uint64_t see
       seed_(seed),
       standing_(std::move(world_.standing)) {}
 
-PointCloud Simulator::Scan(const SE3d& T_world_lidar, double time_s, int index, int threads) const {
+PointCloud Simulator::Scan(const SE3d& T_world_lidar, double time_s, int index, int threads,
+                           std::uint64_t sensor) const {
   std::optional<RayCaster> moving;
   if (!world_.moving.empty()) {
     moving.emplace(world_.MovingAt(time_s));
   }
   return ScanWorld(standing_, moving ? &*moving : nullptr, T_world_lidar, options_,
-                   MixKeys(seed_, 101), MixKeys(seed_, 102, index), threads);
+                   sensor == 0 ? MixKeys(seed_, 101) : MixKeys(seed_, 101, sensor),
+                   MixKeys(seed_, 102, index), threads);
 }
 
 }  // namespace icpscape

@@ -23,7 +23,13 @@ int main() {
   EstimateNormals({}, 1, &target);
   const ClosestPointMatcher matcher(source, target);
   const Objective objective("point_to_plane", matcher);
-  const MinimizerSummary summary = Minimize(objective, SE3d(), {});
+  MinimizerOptions options;
+  options.observer = [](const Observation& seen) {  // Every iterate; false would end the loop.
+    std::printf("cost %g, n %ld, |gradient| %g\n", seen.iterate.cost, seen.iterate.n,
+                seen.evaluation.sums.gradient.norm());
+    return true;
+  };
+  const MinimizerSummary summary = Minimize(objective, SE3d(), options);
   const double error = (truth.Inverse() * summary.T_target_source()).Log().norm();
   std::printf("%s; off the truth by %g\n", summary.message.c_str(), error);
   return summary.Usable() && error < 0.02 ? 0 : 1;

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <gtest/gtest.h>
 
+#include "src/common/vehicle.h"
+
 #include <cmath>
 #include <random>
 

@@ -1,0 +1,216 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "src/covariance/covariance.h"
+
+#include <ceres/loss_function.h>
+
+#include <Eigen/Eigenvalues>
+#include <Eigen/LU>
+#include <algorithm>
+#include <cmath>
+
+#include "src/common/error.h"
+#include "src/common/text.h"
+#include "src/covariance/pair_derivatives.h"
+#include "src/filtering/voxel_hash.h"
+#include "src/objective/pairs.h"
+
+namespace icpscape {
+namespace {
+
+// Rotations that the rematched Hessian is differenced over move points at this distance (m) as far
+// as its translations do.
+constexpr double kRematchingLever = 10;
+
+// Sums vectors by a number, and then the squares of the sums.
+class Groups {
+ public:
+  explicit Groups(std::size_t count) : sums_(count, Vec6::Zero()) {}
+  void Add(std::size_t group, const Vec6& g) { sums_[group] += g; }
+  Mat6 SumOfSquares() const {
+    Mat6 total = Mat6::Zero();
+    for (const Vec6& sum : sums_) {
+      total += sum * sum.transpose();
+    }
+    return total;
+  }
+
+ private:
+  std::vector<Vec6> sums_;
+};
+
+std::size_t RingCount(const PointCloud& cloud) {
+  std::int32_t last = -1;
+  for (const std::int32_t ring : cloud.ring) {
+    last = std::max(last, ring);
+  }
+  return static_cast<std::size_t>(last + 1);
+}
+
+// The inverse; nothing where the matrix is not positive definite to within rounding. Rotations are
+// scaled to the size of translations before.
+std::optional<Mat6> Inverse(const Mat6& matrix) {
+  const double ratio =
+      std::sqrt(matrix.topLeftCorner<3, 3>().trace() / matrix.bottomRightCorner<3, 3>().trace());
+  if (!(ratio > 0) || !std::isfinite(ratio)) {
+    return std::nullopt;
+  }
+  Vec6 scale = Vec6::Ones();
+  scale.head<3>() /= ratio;
+  const Eigen::SelfAdjointEigenSolver<Mat6> solver(scale.asDiagonal() * matrix *
+                                                   scale.asDiagonal());
+  const Vec6& eigenvalues = solver.eigenvalues();
+  if (!(eigenvalues[0] > 1e-12 * eigenvalues[5])) {
+    return std::nullopt;
+  }
+  const Mat6 V = scale.asDiagonal() * solver.eigenvectors();
+  return V * eigenvalues.cwiseInverse().asDiagonal() * V.transpose();
+}
+
+// bread^-1 middle bread^-T; nothing unless the bread is that of a minimum and the result is
+// positive definite.
+std::optional<Mat6> Sandwich(const Mat6& bread, const Mat6& middle) {
+  if (!Inverse(0.5 * (bread + bread.transpose()))) {
+    return std::nullopt;
+  }
+  const Mat6 inverse = bread.inverse();
+  const Mat6 covariance = inverse * middle * inverse.transpose();
+  return Inverse(covariance) ? std::optional(covariance) : std::nullopt;
+}
+
+}  // namespace
+
+void CovarianceOptions::Check() const {
+  const auto require = [](bool good, const char* name, double value, const char* expected) {
+    if (!good) {
+      throw UsageError("--" + std::string(name) + "=" + Number(value) + ": expected " + expected +
+                       ".");
+    }
+  };
+  require(range_noise_m >= 0 && range_noise_m <= 10, "assumed_range_noise_m", range_noise_m,
+          "0 to 10 m");
+  require(ring_bias_m >= 0 && ring_bias_m <= 10, "assumed_ring_bias_m", ring_bias_m, "0 to 10 m");
+  require(cluster_m >= 0.01 && cluster_m <= 1000, "cluster_m", cluster_m, "0.01 to 1000 m");
+  require(rematching_step_m >= 1e-4 && rematching_step_m <= 1, "rematching_step_m",
+          rematching_step_m, "0.0001 to 1 m");
+}
+
+CovarianceSums SumForCovariance(const Objective& objective, const SE3d& T,
+                                const CovarianceOptions& options, int threads) {
+  CovarianceSums sums = SumForCovariance(objective, T, objective.Match(T, threads), options);
+  const auto gradient = [&](const Vec6& xi) {
+    return objective.Evaluate(T * SE3d::Exp(xi), threads).sums.gradient;
+  };
+  for (int i = 0; i < 6; ++i) {
+    const double h = options.rematching_step_m / (i < 3 ? kRematchingLever : 1);
+    const Vec6 step = h * Vec6::Unit(i);
+    sums.rematched_hessian.col(i) = (gradient(step) - gradient(-step)) / (2 * h);
+  }
+  return sums;
+}
+
+CovarianceSums SumForCovariance(const Objective& objective, const SE3d& T, const Matches& matches,
+                                const CovarianceOptions& options) {
+  const PairDerivativesFunction differentiate = PairDerivativesOf(objective.metric());
+  const PointCloud& source = objective.matcher().source();
+  const PointCloud& target = objective.matcher().target();
+  const bool has_rings = !source.ring.empty() && !target.ring.empty();
+  CovarianceSums sums;
+  VoxelNumbers cubes(matches.target_index.size());
+  Groups cluster_scores(matches.target_index.size());
+  Groups target_ranges(target.size());
+  Groups rings(has_rings ? std::max(RingCount(source), RingCount(target)) : 0);
+  ForEachPair(objective, matches, [&](std::size_t i, std::size_t j, const Correspondence& pair) {
+    const PairDerivatives d = differentiate(pair, T, objective.loss());
+    sums.gauss_newton += d.gauss_newton;
+    sums.hessian += d.gradient_by_xi;
+    sums.scores += d.gradient * d.gradient.transpose();
+    cluster_scores.Add(cubes.Insert(VoxelKey(target.Point(j).cast<float>(), options.cluster_m,
+                                             "the target frame")),
+                       d.gradient);
+    sums.range_noise += d.by_source_range * d.by_source_range.transpose();
+    target_ranges.Add(j, d.by_target_range);
+    if (has_rings) {
+      rings.Add(static_cast<std::size_t>(source.ring[i]), d.by_source_range);
+      rings.Add(static_cast<std::size_t>(target.ring[j]), d.by_target_range);
+    }
+    ++sums.pairs;
+    sums.rows += d.rows;
+  });
+  sums.hessian = (0.5 * (sums.hessian + sums.hessian.transpose())).eval();
+  sums.cluster_scores = cluster_scores.SumOfSquares();
+  sums.clusters = static_cast<long>(cubes.size());
+  sums.range_noise += target_ranges.SumOfSquares();
+  if (has_rings) {
+    sums.ring_bias = rings.SumOfSquares();
+  }
+  sums.cost = objective.Evaluate(T, matches, 1).sums.cost;
+  return sums;
+}
+
+const char* EstimatorName(Estimator estimator) {
+  switch (estimator) {
+    case Estimator::kGaussNewton:
+      return "gauss_newton";
+    case Estimator::kCensi:
+      return "censi";
+    case Estimator::kCensiRingBias:
+      return "censi_ring_bias";
+    case Estimator::kSandwich:
+      return "sandwich";
+    case Estimator::kSandwichClustered:
+      return "sandwich_clustered";
+    case Estimator::kSandwichRematched:
+      return "sandwich_rematched";
+  }
+  return "";
+}
+
+std::vector<Estimator> AllEstimators() {
+  return {Estimator::kGaussNewton,       Estimator::kCensi,
+          Estimator::kCensiRingBias,     Estimator::kSandwich,
+          Estimator::kSandwichClustered, Estimator::kSandwichRematched};
+}
+
+std::optional<Mat6> EstimateCovariance(Estimator estimator, const CovarianceSums& sums,
+                                       const CovarianceOptions& options) {
+  // H decides always: what A or B have beyond it is no information about the pose.
+  const std::optional<Mat6> H_inverse = Inverse(sums.gauss_newton);
+  if (!H_inverse) {
+    return std::nullopt;
+  }
+  const auto square = [](double x) { return x * x; };
+  switch (estimator) {
+    case Estimator::kGaussNewton:
+      if (sums.rows <= 6 || !(sums.cost > 0)) {
+        return std::nullopt;
+      }
+      return 2 * sums.cost / static_cast<double>(sums.rows - 6) * *H_inverse;
+    case Estimator::kCensi:
+      return Sandwich(sums.hessian, square(options.range_noise_m) * sums.range_noise);
+    case Estimator::kCensiRingBias:
+      if (!sums.ring_bias) {
+        return std::nullopt;
+      }
+      return Sandwich(sums.hessian, square(options.range_noise_m) * sums.range_noise +
+                                        square(options.ring_bias_m) * *sums.ring_bias);
+    case Estimator::kSandwich:
+      return Sandwich(sums.hessian, sums.scores);
+    case Estimator::kSandwichClustered:
+      return Sandwich(sums.hessian, sums.cluster_scores);
+    case Estimator::kSandwichRematched:
+      return Sandwich(sums.rematched_hessian, sums.cluster_scores);
+  }
+  return std::nullopt;
+}
+
+std::string CovarianceWarning(const std::string& metric) {
+  if (metric != "point_to_point") {
+    return "";
+  }
+  return "point_to_point: the closed forms over given pairs are not valid, since along surfaces "
+         "the "
+         "pairs follow the pose (Bonnabel, Barczyk & Goulette 2016); trust Monte-Carlo, or at most "
+         "sandwich_rematched.";
+}
+
+}  // namespace icpscape

@@ -1,0 +1,98 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "src/covariance/pair_derivatives.h"
+
+#include <ceres/jet.h>
+#include <ceres/loss_function.h>
+
+#include "residuals/registry.h"
+#include "src/objective/metric_functions.h"
+
+namespace icpscape {
+namespace {
+
+// Six for the pose, then one for each range.
+constexpr int kSourceRange = 6;
+constexpr int kTargetRange = 7;
+using Jet = ceres::Jet<double, 8>;
+
+// The same metric over another scalar.
+template <class Metric>
+struct OverJets;
+template <template <class> class Metric, class Scalar>
+struct OverJets<Metric<Scalar>> {
+  using Type = Metric<Jet>;
+};
+
+Vec<Jet, 3> AlongRay(const Vec3& point, const Vec3& ray, int range) {
+  Vec<Jet, 3> moved = point.cast<Jet>();
+  for (int axis = 0; axis < 3; ++axis) {
+    moved[axis].v[range] = ray[axis];
+  }
+  return moved;
+}
+
+CorrespondenceOf<Jet> WithRanges(const Correspondence& c) {
+  const Vec3 source_ray = c.p_source.normalized();
+  const Vec3 target_ray = c.q_target.normalized();
+  CorrespondenceOf<Jet> jets;
+  jets.p_source = AlongRay(c.p_source, source_ray, kSourceRange);
+  jets.q_target = AlongRay(c.q_target, target_ray, kTargetRange);
+  jets.a_line = AlongRay(c.a_line, target_ray, kTargetRange);
+  jets.q_patch = AlongRay(c.q_patch, target_ray, kTargetRange);
+  jets.n_source = c.n_source.cast<Jet>();
+  jets.n_target = c.n_target.cast<Jet>();
+  jets.d_line = c.d_line.cast<Jet>();
+  jets.n_patch = c.n_patch.cast<Jet>();
+  jets.area_patch = Jet(c.area_patch);
+  return jets;
+}
+
+template <class Metric>
+PairDerivatives Differentiate(const Correspondence& pair, const SE3d& T,
+                              const ceres::LossFunction* loss) {
+  Vec<Jet, 6> xi;
+  for (int i = 0; i < 6; ++i) {
+    xi[i] = Jet(0.0, i);
+  }
+  const SE3<Jet> T_moved = T.cast<Jet>() * SE3<Jet>::Exp(xi);
+  const auto metric = OverJets<Metric>::Type::From(WithRanges(pair));
+  const Vec<Jet, Metric::kDim> r = metric.Residual(T_moved);
+  const Mat<Jet, Metric::kDim, 6> J = metric.Jacobian(T_moved);
+  const Jet squared = r.squaredNorm();
+  double rho[3] = {squared.a, 1, 0};
+  if (loss != nullptr) {
+    loss->Evaluate(squared.a, rho);
+  }
+  const Jet weight(rho[1], rho[2] * squared.v);
+  const Vec<Jet, 6> g = J.transpose() * r * weight;
+
+  PairDerivatives out;
+  out.rows = Metric::kDim;
+  Mat<double, Metric::kDim, 6> J_value;
+  for (int row = 0; row < Metric::kDim; ++row) {
+    for (int i = 0; i < 6; ++i) {
+      J_value(row, i) = J(row, i).a;
+    }
+  }
+  out.gauss_newton = rho[1] * J_value.transpose() * J_value;
+  for (int i = 0; i < 6; ++i) {
+    const bool smooth = g[i].v.allFinite();
+    out.gradient[i] = g[i].a;
+    out.gradient_by_xi.row(i) =
+        smooth ? g[i].v.head<6>().transpose().eval() : Vec6::Zero().transpose();
+    out.by_source_range[i] = smooth ? g[i].v[kSourceRange] : 0;
+    out.by_target_range[i] = smooth ? g[i].v[kTargetRange] : 0;
+  }
+  return out;
+}
+
+}  // namespace
+
+PairDerivativesFunction PairDerivativesOf(const std::string& metric) {
+  MetricFunctionsOf(metric);  // Throws for an unknown one.
+  PairDerivativesFunction function = nullptr;
+  WithMetric(metric, [&](auto tag) { function = &Differentiate<typename decltype(tag)::Metric>; });
+  return function;
+}
+
+}  // namespace icpscape
