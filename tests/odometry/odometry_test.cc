@@ -227,35 +227,57 @@ TEST(Odometry, StartsFromTheMotionBefore) {
 
 // Each step over again from the parts that it is made of: T_e is the motion before, and the gate
 // is what KISS-ICP makes of the predictions' errors.
-TEST(Odometry, IsTheChainOfItsParts) {
-  OdometryOptions options = Options(OdometryMode::kScanToScan);
-  options.filters.ego_blind_spot_m = 5;
-  options.filters.octree_voxel_m = 0.5;
+void ExpectTheChainOfItsParts(const OdometryOptions& options) {
   const std::vector<PointCloud> scans = FirstScans(4);
   const std::vector<FrameResult> results = Drive(options, scans);
-  AdaptiveGate gate(2);
-  SE3d motion, pose;
+  const auto prepare = [&](std::size_t i) {
+    return Prepare(scans[i], kSourceNormal | kTargetNormal | kTargetLine | kTargetPatch,
+                   options.preprocessing, 1);
+  };
+  AdaptiveGate gate(options.adaptive_gate_m);
+  SE3d predicted, pose;
   for (std::size_t i = 1; i < scans.size(); ++i) {
-    const auto prepare = [&](std::size_t k) {
-      return Prepare(scans[k], kSourceNormal | kTargetNormal, options.preprocessing, 1);
-    };
     const auto source = prepare(i), target = prepare(i - 1);
-    const FilteredPair pair = ApplyFilters(source->cloud, target->cloud, motion, options.filters);
+    const FilteredPair pair =
+        ApplyFilters(source->cloud, target->cloud, predicted, options.filters);
     ObjectiveSetOptions objective = options.objective;
     objective.matching.max_distance_m = gate.MaxDistance_m();
-    EXPECT_EQ(results[i].gate_m, gate.MaxDistance_m());
-    const ObjectiveSet set(pair.source, pair.target, {}, kPlanes, objective);
-    const MinimizerSummary summary = Minimize(set.objectives()[0], motion, options.minimizer);
+    objective.line.max_neighbor_distance_m = gate.MaxDistance_m();
+    objective.patch.max_neighbor_distance_m = gate.MaxDistance_m();
+    const ObjectiveSet set(pair.source, pair.target, source->features.Select(pair.keep_source),
+                           options.metrics, objective);
+    std::vector<JointObjective::Term> terms;
+    for (const Objective& term : set.objectives()) {
+      terms.push_back({&term, 1});
+    }
+    const MinimizerSummary summary =
+        Minimize(JointObjective(std::move(terms)), predicted, options.minimizer);
     const SE3d found = summary.T_target_source().Normalized();
+    EXPECT_EQ(results[i].gate_m, gate.MaxDistance_m());
     EXPECT_EQ(results[i].motion.Matrix(), found.Matrix()) << i;
     EXPECT_EQ(results[i].n, summary.iterates.back().n);
     EXPECT_EQ(results[i].rmse, summary.iterates.back().rmse);
     EXPECT_EQ(results[i].iterations, static_cast<int>(summary.iterates.size()) - 1);
-    gate.Add(motion, found);
-    motion = found;
+    gate.Add(predicted, found);
+    predicted = options.constant_velocity ? found : SE3d();
     pose = pose * found;
     EXPECT_LT((results[i].T_world_lidar.Matrix() - pose.Matrix()).norm(), 1e-12);
   }
+}
+
+TEST(Odometry, IsTheChainOfItsParts) {
+  OdometryOptions options = Options(OdometryMode::kScanToScan, {"point_to_plane", "edge_to_line"});
+  options.preprocessing.voxel_m = 0;
+  ExpectTheChainOfItsParts(options);
+  options.metrics = {"edge_to_line", "planar_to_plane"};
+  options.adaptive_gate_m = 0.3;  // So tight that fits feel it.
+  ExpectTheChainOfItsParts(options);
+  options.constant_velocity = false;
+  ExpectTheChainOfItsParts(options);
+  options.metrics = {"edge_to_line", "point_to_plane"};
+  options.filters.ego_blind_spot_m = 5;
+  options.filters.octree_voxel_m = 0.5;
+  ExpectTheChainOfItsParts(options);
 }
 
 TEST(Odometry, WeighsItsMetrics) {
