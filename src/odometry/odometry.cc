@@ -165,7 +165,7 @@ FrameResult Odometry::Add(PointCloud scan) {
     SE3d T_last_current = T_predicted;
     const auto take_over = [&](const Registration& registration) {
       if (!registration.usable) {
-        LOG(WARNING) << "scan " << size_ << ": " << registration.message;
+        LOG(WARNING) << "frame " << size_ << ": " << registration.message;
       }
       result.registered = result.registered || registration.usable;
       result.termination = registration.termination;
@@ -183,7 +183,7 @@ FrameResult Odometry::Add(PointCloud scan) {
         take_over(RegisterToMap(*current, T_last_current, &result));
       }
     } catch (const ComputationError& error) {  // A filter or a metric was left without a point.
-      LOG(WARNING) << "scan " << size_ << ": " << error.what();
+      LOG(WARNING) << "frame " << size_ << ": " << error.what();
     }
     if (options_.mode == OdometryMode::kScanToMap) {
       result.motion = T_last_current;

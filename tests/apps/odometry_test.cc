@@ -409,6 +409,17 @@ TEST_F(OdometryApp, TakesAFolderOfScans) {
             0.03);
 }
 
+TEST_F(OdometryApp, TakesFoldersOfAnyName) {
+  std::filesystem::create_directories(Path("a drive;\nwith = \"signs\""));
+  WritePly(Path("a drive;\nwith = \"signs\"/0.ply"), TheDrive().scans[0]);
+  for (const char* journal : {"", "journal: 1 scans are done, and are replayed"}) {
+    const Outcome outcome = RunProgram(
+        "odometry", {"--scans=" + Path("a drive;\nwith = \"signs\""), "--out=" + Path("out")});
+    EXPECT_EQ(outcome.code, 0) << outcome.err;
+    EXPECT_THAT(outcome.out, HasSubstr(journal));
+  }
+}
+
 // What the program shows on a terminal.
 std::string RunOnTerminal(const std::vector<std::string>& arguments) {
   int terminal = -1;
