@@ -154,8 +154,20 @@ bool Odometry::MapsNow() const {
          (options_.mode == OdometryMode::kTwoStage && size_ % options_.map_every == 0);
 }
 
+std::unique_ptr<const PreparedScan> Odometry::PrepareOrEmpty(PointCloud scan) const {
+  try {
+    return Prepare(std::move(scan), needs_, options_.preprocessing, options_.threads);
+  } catch (const InputError& error) {
+    if (!last_) {
+      throw;
+    }
+    LOG(WARNING) << "frame " << size_ << ": " << error.what();
+    return Prepare(PointCloud(), needs_, options_.preprocessing, options_.threads);
+  }
+}
+
 FrameResult Odometry::Add(PointCloud scan) {
-  auto current = Prepare(std::move(scan), needs_, options_.preprocessing, options_.threads);
+  auto current = PrepareOrEmpty(std::move(scan));
   FrameResult result;
   result.points = current->cloud.size();
   if (last_) {
@@ -195,7 +207,7 @@ FrameResult Odometry::Add(PointCloud scan) {
 }
 
 void Odometry::Replay(PointCloud scan, const FrameResult& result) {
-  Finish(Prepare(std::move(scan), needs_, options_.preprocessing, options_.threads), result);
+  Finish(PrepareOrEmpty(std::move(scan)), result);
 }
 
 void Odometry::Finish(std::unique_ptr<const PreparedScan> scan, const FrameResult& result) {

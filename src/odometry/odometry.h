@@ -72,7 +72,8 @@ class Odometry {
   explicit Odometry(OdometryOptions options);
   ~Odometry();
 
-  /// Registers the next scan.
+  /// Registers the next scan. Throws InputError where the first cannot be prepared (see Prepare):
+  /// then none will be. A later one counts as empty.
   FrameResult Add(PointCloud scan);
 
   /// Takes over what Add returned for the next scan in an earlier run, without registering it:
@@ -85,6 +86,7 @@ class Odometry {
   const PreparedScan* last_scan() const { return last_.get(); }
 
  private:
+  std::unique_ptr<const PreparedScan> PrepareOrEmpty(PointCloud scan) const;
   struct Registration;
   Registration Register(const PreparedScan& source, const PreparedScan& target,
                         const SE3d& T_predicted) const;
