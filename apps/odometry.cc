@@ -64,26 +64,28 @@ class Run {
     if (known > 0) {
       std::cout << "journal: " << known << " scans are done, and are replayed" << std::endl;
     }
-    Progress progress("scans", static_cast<int>(sequence_.scans.size()));
-    for (std::size_t i = 0; i < sequence_.scans.size(); ++i) {
-      if (i < known) {
-        Replay(i);
-      } else {
-        Register(i);
-      }
-      const FrameRecord& record = records_.back();
-      if (map_) {
-        map_->Insert(odometry_.last_scan()->cloud, record.result.T_world_lidar,
-                     static_cast<int>(i));
-      }
-      progress.Show(static_cast<int>(i) + 1);
-    }
+    // Apart: one is faster than the other, and the time that remains is told from the rate.
+    ForScans("scans replayed", 0, known, [this](std::size_t i) { Replay(i); });
+    ForScans("scans", known, sequence_.scans.size(), [this](std::size_t i) { Register(i); });
   }
 
   const std::vector<FrameRecord>& records() const { return records_; }
   const std::optional<VoxelMap>& map() const { return map_; }
 
  private:
+  void ForScans(const char* what, std::size_t begin, std::size_t end,
+                const std::function<void(std::size_t)>& take) {
+    Progress progress(what, static_cast<int>(end - begin));
+    for (std::size_t i = begin; i < end; ++i) {
+      take(i);
+      if (map_) {
+        map_->Insert(odometry_.last_scan()->cloud, records_.back().result.T_world_lidar,
+                     static_cast<int>(i));
+      }
+      progress.Show(static_cast<int>(i + 1 - begin));
+    }
+  }
+
   PointCloud Read(std::size_t i) const {
     DroppedPoints dropped;
     return ReadPointFile(sequence_.scans[i], &dropped);
@@ -223,6 +225,7 @@ void RunOdometry() {
   const ScanSequence sequence = SequenceFromFlags(&manifest);
   Journal journal(out / "journal.txt", JournalHeader(sequence),
                   FLAGS_restart ? Journal::Begin::kAnew : Journal::Begin::kWhereItEnds);
+  std::filesystem::remove(out / "manifest.json");  // Written last: the mark of a finished run.
   Run run(sequence, &journal);
   run.Go();
   manifest.AddTiming("odometry");

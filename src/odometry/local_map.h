@@ -10,9 +10,11 @@
 namespace icpscape {
 
 struct LocalMapOptions {
-  double voxel_m = 0.25;  ///< One point per voxel; of edges and of planar points likewise.
-  double radius_m = 80;   ///< Points farther from the vehicle are dropped.
-  int scans = 0;          ///< Only points of so many last scans; 0 is no limit. 1 is the paper's.
+  double voxel_m = 0.5;  ///< One point per voxel; of edges and of planar points likewise.
+  double radius_m = 80;  ///< Points farther from the vehicle are dropped.
+  /// Only points of so many last scans, whether all of them went into the map or not; 0 is no
+  /// limit. 1 is the paper's.
+  int scans = 0;
 };
 
 /// The surroundings as the last scans saw them: all points, and, apart from one another, edges and

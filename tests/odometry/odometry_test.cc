@@ -4,6 +4,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include "residuals/registry.h"
 #include "src/common/error.h"
 #include "src/objective/loss.h"
 #include "src/odometry/frame_record.h"
@@ -175,6 +176,40 @@ TEST_P(EveryMode, TakesFilters) {
     EXPECT_EQ(filtered[i].points, whole[i].points);  // Before the filters.
     EXPECT_LT(DistanceM(filtered[i].T_world_lidar, TownDrive().T_world_lidar[i]), 0.08) << i;
   }
+}
+
+TEST_P(EveryMode, TakesEveryMetricAndRejection) {
+  const auto expect_motion = [](const OdometryOptions& options, const std::string& what) {
+    const auto results = Drive(options, FirstScans(4));
+    for (std::size_t i = 1; i < results.size(); ++i) {
+      EXPECT_TRUE(results[i].registered) << what << " " << i;
+      EXPECT_GT(results[i].motion.t().x(), 0.05) << what << " " << i;  // Some are slow.
+      EXPECT_LT(DistanceM(results[i].motion, SE3d()), 1) << what << " " << i;
+    }
+  };
+  OdometryOptions options;
+  ForEachMetric([&](auto tag) {
+    const std::string metric = decltype(tag)::Metric::kName;
+    options = Options(GetParam(), {metric});
+    options.preprocessing.voxel_m = NeedsFeatures(metric) ? 0 : 0.25;
+    options.minimizer.max_iterations = 5;
+    expect_motion(options, metric);
+  });
+  options = Options(GetParam(), {"point_to_point"});  // Normals that no metric needs.
+  options.objective.matching.max_normal_angle_rad = 0.5;
+  expect_motion(options, "normal angle");
+  options = Options(GetParam());
+  options.objective.matching.reciprocal_epsilon_m = 0.1;
+  expect_motion(options, "reciprocal");
+  options.objective.matching.kept_fraction = 0.7;
+  expect_motion(options, "trimmed");
+  options = Options(GetParam());
+  options.objective.loss = MakeLoss("tolerant", 0.1);
+  expect_motion(options, "tolerant");
+  options = Options(GetParam());
+  options.adaptive_gate_m = 0;
+  options.minimizer.reassociation = Reassociation::kEveryEvaluation;
+  expect_motion(options, "every evaluation");
 }
 
 TEST(Odometry, StartsFromTheMotionBefore) {
