@@ -1,25 +1,19 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "src/covariance/covariance.h"
-
 #include <gflags/gflags.h>
 
-#include <algorithm>
-#include <array>
 #include <cmath>
-#include <cstdio>
+#include <filesystem>
 #include <iostream>
-#include <limits>
 
 #include "apps/app.h"
+#include "apps/covariance_report.h"
 #include "apps/lidar_flags.h"
 #include "apps/objective_flags.h"
 #include "apps/pair_filters.h"
 #include "apps/pair_flags.h"
 #include "src/common/error.h"
 #include "src/common/text.h"
-#include "src/covariance/degeneracy.h"
 #include "src/covariance/monte_carlo.h"
-#include "src/io/output.h"
 
 DECLARE_string(scene);
 DECLARE_int32(normal_neighbors);
@@ -48,10 +42,6 @@ DEFINE_double(length_scale_m, 10,
 
 namespace icpscape {
 namespace {
-
-constexpr double kMillidegrees = 1000 * 180 / M_PI;
-constexpr std::array<const char*, 6> kComponents = {"rx", "ry", "rz", "tx", "ty", "tz"};
-constexpr std::array<const char*, 6> kUnits = {"rad", "rad", "rad", "m", "m", "m"};
 
 CovarianceOptions CovarianceFromFlags() {
   CovarianceOptions options;
@@ -115,267 +105,18 @@ MonteCarloOptions MonteCarloFromFlags() {
   return options;
 }
 
-void AppendComponents(const std::string& prefix, bool units, std::vector<std::string>* columns) {
-  for (std::size_t i = 0; i < 6; ++i) {
-    columns->push_back(prefix + kComponents[i] + (units ? std::string("_") + kUnits[i] : ""));
-  }
-}
-void AppendCovarianceColumns(std::vector<std::string>* columns) {
-  for (std::size_t i = 0; i < 6; ++i) {
-    for (std::size_t j = i; j < 6; ++j) {
-      columns->push_back(std::string("cov_") + kComponents[i] + "_" + kComponents[j] + "_" +
-                         kUnits[i] + "_" + kUnits[j]);
-    }
-  }
-}
-void AppendNumbers(const Vec6& values, std::vector<std::string>* row) {
-  for (const double value : values) {
-    row->push_back(Number(value));
-  }
-}
-void AppendUpperTriangle(const Mat6& matrix, std::vector<std::string>* row) {
-  for (int i = 0; i < 6; ++i) {
-    for (int j = i; j < 6; ++j) {
-      row->push_back(Number(matrix(i, j)));
-    }
-  }
-}
-
-// In millidegrees and millimetres.
-void PrintDeviations(const char* name, const Vec6& deviation) {
-  std::printf("  %-19s", name);
-  for (int i = 0; i < 6; ++i) {
-    std::printf(" %8.3f", deviation[i] * (i < 3 ? kMillidegrees : 1000));
-  }
-  std::printf("\n");
-}
-
-// The tables of the report on one pair.
-struct PairTables {
-  Table covariance = MakeCovariance();
-  Table directions = MakeDirections();
-  Table verdicts = MakeVerdicts();
-
-  static Table MakeCovariance() {
-    std::vector<std::string> columns = {"metric", "estimator"};
-    AppendComponents("sd_", true, &columns);
-    AppendCovarianceColumns(&columns);
-    return Table(columns);
-  }
-  static Table MakeDirections() {
-    std::vector<std::string> columns = {"metric", "length_scale_m", "eigenvalue"};
-    AppendComponents("direction_", false, &columns);
-    return Table(columns);
-  }
-  static Table MakeVerdicts() {
-    std::vector<std::string> columns = {"metric", "rule",      "source",
-                                        "value",  "threshold", "localizability"};
-    AppendComponents("direction_", false, &columns);
-    return Table(columns);
-  }
-};
-
-void ReportCovariances(const std::string& metric, const CovarianceSums& sums, Table* table) {
-  std::printf("standard deviations   rx (mdeg)       ry       rz  tx (mm)       ty       tz\n");
-  const CovarianceOptions options = CovarianceFromFlags();
-  const bool determined = EstimateCovariance(Estimator::kGaussNewton, sums, options).has_value();
-  for (const Estimator estimator : AllEstimators()) {
-    const std::optional<Mat6> covariance = EstimateCovariance(estimator, sums, options);
-    const Mat6 values =
-        covariance ? *covariance : Mat6::Constant(std::numeric_limits<double>::quiet_NaN());
-    const Vec6 deviation = values.diagonal().cwiseSqrt();
-    if (covariance) {
-      PrintDeviations(EstimatorName(estimator), deviation);
-    } else {
-      const char* reason = "there is too little to estimate it from.";
-      if (!determined) {
-        reason = "the pairs do not determine all six degrees of freedom.";
-      } else if (estimator == Estimator::kCensiRingBias && !sums.ring_bias) {
-        reason = "the points have no rings.";
-      }
-      std::printf("  %-19s none: %s\n", EstimatorName(estimator), reason);
-    }
-    std::vector<std::string> row = {metric, EstimatorName(estimator)};
-    AppendNumbers(deviation, &row);
-    AppendUpperTriangle(values, &row);
-    table->AddRow(std::move(row));
-  }
-}
-
-void ReportDirections(const std::string& metric, const Mat6& hessian, Table* table) {
-  const EigenDirections eigen = EigenDirectionsOf(hessian, FLAGS_length_scale_m);
-  std::printf("eigenvalues of H in [L omega; v], L = %g m:", eigen.length_scale_m);
-  for (int i = 0; i < 6; ++i) {
-    std::printf(" %.4g", eigen.eigenvalues[i]);
-    std::vector<std::string> row = {metric, Number(eigen.length_scale_m),
-                                    Number(eigen.eigenvalues[i])};
-    AppendNumbers(eigen.directions.col(i), &row);
-    table->AddRow(std::move(row));
-  }
-  std::printf("\nweakest direction: [%.2f %.2f %.2f; %.2f %.2f %.2f]\n", eigen.directions(0, 0),
-              eigen.directions(1, 0), eigen.directions(2, 0), eigen.directions(3, 0),
-              eigen.directions(4, 0), eigen.directions(5, 0));
-}
-
-void ReportVerdicts(const std::string& metric, const std::vector<Verdict>& verdicts, Table* table,
-                    Manifest* manifest) {
-  std::printf("degeneracy             degenerate  partial  weakest  degenerate where\n");
-  // Six verdicts to a rule.
-  for (std::size_t first = 0; first < verdicts.size(); first += 6) {
-    int degenerate = 0;
-    int partial = 0;
-    const bool above = verdicts[first].rule == "dcreg";  // A condition number; else a strength.
-    double weakest = verdicts[first].value;
-    for (std::size_t i = first; i < first + 6; ++i) {
-      const Verdict& verdict = verdicts[i];
-      degenerate += verdict.localizability == Localizability::kNone ? 1 : 0;
-      partial += verdict.localizability == Localizability::kPartial ? 1 : 0;
-      weakest = above ? std::max(weakest, verdict.value) : std::min(weakest, verdict.value);
-      std::vector<std::string> row = {metric,
-                                      verdict.rule,
-                                      verdict.source,
-                                      Number(verdict.value),
-                                      Number(verdict.threshold),
-                                      LocalizabilityName(verdict.localizability)};
-      AppendNumbers(verdict.direction, &row);
-      table->AddRow(std::move(row));
-    }
-    const Verdict& verdict = verdicts[first];
-    std::printf("  %-19s %8d of 6 %7d %9.4g  %s %g\n", verdict.rule.c_str(), degenerate, partial,
-                weakest, above ? "above" : "below", verdict.threshold);
-    manifest->SetResult("degenerate_" + metric + "_" + verdict.rule, degenerate);
-  }
-}
-
-// Registers the pair and says how sure that is.
-void ReportPair(const Objective& objective, const SE3d& T_initial, PairTables* tables,
-                Manifest* manifest) {
-  MinimizerOptions options = PreciseMinimizer();
-  options.threads = ThreadsFromFlags();
-  const MinimizerSummary summary = Minimize(objective, T_initial, options);
-  const std::string& metric = objective.metric();
-  if (!summary.Usable()) {
-    throw ComputationError(metric + ": " + summary.message);
-  }
-  const SE3d& T = summary.T_target_source();
-  const Matches matches = objective.Match(T, options.threads);
-  const CovarianceSums sums =
-      SumForCovariance(objective, T, CovarianceFromFlags(), options.threads);
-  std::printf("\n%s: %s after %zu steps; %ld pairs, %ld cubes of %g m\n", metric.c_str(),
-              TerminationName(summary.termination), summary.iterates.size() - 1, sums.pairs,
-              sums.clusters, FLAGS_cluster_m);
-  ReportCovariances(metric, sums, &tables->covariance);
-  ReportDirections(metric, sums.gauss_newton, &tables->directions);
-  ReportVerdicts(metric,
-                 JudgeDegeneracy(sums.gauss_newton, PlaneConstraintsOf(objective, T, matches)),
-                 &tables->verdicts, manifest);
-  const std::string warning = CovarianceWarning(metric);
-  if (!warning.empty()) {
-    std::printf("warning: %s\n", warning.c_str());
-    manifest->SetResult("warning_" + metric, warning);
-  }
-}
-
-struct DrawTables {
-  Table draws = MakeDraws();
-  Table calibration = MakeCalibration();
-  Table bias = Table({"metric", "component", "unit", "bias", "standard_error", "deviation"});
-
-  static Table MakeDraws() {
-    std::vector<std::string> columns = {"metric", "draw", "termination", "iterations"};
-    AppendComponents("error_", true, &columns);
-    return Table(columns);
-  }
-  static Table MakeCalibration() {
-    std::vector<std::string> columns = {"metric",          "estimator",        "draws",
-                                        "nees_about_mean", "mean_lower_95",    "mean_upper_95",
-                                        "overconfidence",  "nees_about_truth", "truth_lower_95",
-                                        "truth_upper_95"};
-    AppendComponents("deviation_ratio_", false, &columns);
-    AppendCovarianceColumns(&columns);
-    return Table(columns);
-  }
-};
-
-void AddDraws(const std::string& metric, const std::vector<DrawResult>& draws, Table* table) {
-  for (std::size_t i = 0; i < draws.size(); ++i) {
-    std::vector<std::string> row = {metric, std::to_string(i),
-                                    TerminationName(draws[i].termination),
-                                    std::to_string(draws[i].iterations)};
-    AppendNumbers(draws[i].usable ? draws[i].error
-                                  : Vec6(Vec6::Constant(std::numeric_limits<double>::quiet_NaN())),
-                  &row);
-    table->AddRow(std::move(row));
-  }
-}
-
-void ReportCalibration(const std::string& metric, const Calibration& calibration,
-                       DrawTables* tables, Manifest* manifest) {
-  const ErrorStatistics& errors = calibration.errors;
-  std::printf("\n%s, %ld draws", metric.c_str(), errors.n);
-  if (calibration.failed > 0) {
-    std::printf(" (%ld more have no result)", calibration.failed);
-  }
-  std::printf(":        rx (mdeg)       ry       rz  tx (mm)       ty       tz\n");
-  PrintDeviations("bias", errors.mean);
-  PrintDeviations("its standard error", errors.standard_error);
-  PrintDeviations("standard deviation", errors.deviation);
-  for (std::size_t i = 0; i < 6; ++i) {
-    const auto at = static_cast<Eigen::Index>(i);
-    tables->bias.AddRow({metric, kComponents[i], kUnits[i], Number(errors.mean[at]),
-                         Number(errors.standard_error[at]), Number(errors.deviation[at])});
-  }
-  std::vector<std::string> actual = {metric, "monte_carlo", std::to_string(errors.n)};
-  actual.insert(actual.end(), 13, "nan");
-  AppendUpperTriangle(errors.covariance, &actual);
-  tables->calibration.AddRow(std::move(actual));
-  std::printf("  NEES (ideally 6):    about mean  sd too small by  about truth\n");
-  for (const EstimatorCalibration& entry : calibration.estimators) {
-    const char* name = EstimatorName(entry.estimator);
-    if (entry.draws < 2) {
-      std::printf("  %-19s %11s\n", name, "none");
-      continue;
-    }
-    const Nees& mean = entry.about_mean;
-    const Nees& truth = entry.about_truth;
-    std::printf("  %-19s %11.2f %16.2f %12.2f\n", name, mean.mean, mean.Overconfidence(),
-                truth.mean);
-    std::vector<std::string> row = {metric,
-                                    name,
-                                    std::to_string(entry.draws),
-                                    Number(mean.mean),
-                                    Number(mean.lower),
-                                    Number(mean.upper),
-                                    Number(mean.Overconfidence()),
-                                    Number(truth.mean),
-                                    Number(truth.lower),
-                                    Number(truth.upper)};
-    AppendNumbers(entry.deviation_ratio, &row);
-    AppendUpperTriangle(entry.mean_covariance, &row);
-    tables->calibration.AddRow(std::move(row));
-    manifest->SetResult("nees_about_mean_" + metric + "_" + name, mean.mean);
-    manifest->SetResult("nees_about_truth_" + metric + "_" + name, truth.mean);
-  }
-  const Nees& bounds = calibration.estimators.front().about_mean;
-  std::printf("  95 %% of right covariances are between %.2f and %.2f about the mean\n",
-              bounds.lower, bounds.upper);
-}
-
-void RunDraws(const std::filesystem::path& out, const std::string& title, Manifest* manifest) {
+void RunDraws(const std::filesystem::path& out, const std::string& title, CovarianceReport* report,
+              Manifest* manifest) {
   const MonteCarloOptions options = MonteCarloFromFlags();
   std::vector<std::vector<DrawResult>> results;
   {
     Progress progress("draws", options.draws);
     results = RunMonteCarlo(options, [&](int done) { progress.Show(done); });
   }
-  DrawTables tables;
   for (std::size_t m = 0; m < options.metrics.size(); ++m) {
-    AddDraws(options.metrics[m], results[m], &tables.draws);
-    ReportCalibration(options.metrics[m], Calibrate(results[m]), &tables, manifest);
+    report->AddDraws(options.metrics[m], results[m], manifest);
   }
-  tables.draws.WriteCsv(out / "draws.csv");
-  tables.calibration.WriteCsv(out / "calibration.csv");
-  tables.bias.WriteCsv(out / "bias.csv");
+  report->WriteDraws(out);
   manifest->AddTiming("draws");
   RunPlotScript("plot_covariance.py", {out.string(), "--out", (out / "covariance").string(),
                                        "--title", title + ", " + FLAGS_sensor + " sensor"});
@@ -396,7 +137,7 @@ void Covariance() {
   const std::filesystem::path out = OutputFolder();
   Manifest manifest(AppName());
   RecordFlags(&manifest);
-  PairTables tables;
+  CovarianceReport report(CovarianceFromFlags(), FLAGS_length_scale_m);
   std::string title;
   {
     ScanPair pair = LoadPair(metrics, &manifest);
@@ -405,16 +146,19 @@ void Covariance() {
     const ObjectiveSet set(pair.source, pair.target, pair.features, metrics,
                            ObjectiveSetFromFlags());
     for (const Objective& objective : set.objectives()) {
-      ReportPair(objective, pair.T_initial, &tables, &manifest);
+      report.AddPair(objective, pair.T_initial, ThreadsFromFlags(), &manifest);
     }
   }
-  tables.covariance.WriteCsv(out / "covariance.csv");
-  tables.directions.WriteCsv(out / "directions.csv");
-  tables.verdicts.WriteCsv(out / "verdicts.csv");
+  // Those of an earlier run with draws must not stand beside this run's.
+  for (const char* name :
+       {"draws.csv", "calibration.csv", "bias.csv", "covariance.svg", "covariance.png"}) {
+    std::filesystem::remove(out / name);
+  }
+  report.WritePair(out);
   manifest.AddTiming("pair");
   const int draws = DrawsFromFlags();
   if (draws > 0) {
-    RunDraws(out, title, &manifest);
+    RunDraws(out, title, &report, &manifest);
   }
   manifest.Write(out / "manifest.json");
   std::cout << "\ntime: " << manifest.TimingsText() << '\n';

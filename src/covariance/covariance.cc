@@ -43,7 +43,7 @@ std::size_t RingCount(const PointCloud& cloud) {
   for (const std::int32_t ring : cloud.ring) {
     last = std::max(last, ring);
   }
-  return static_cast<std::size_t>(last + 1);
+  return static_cast<std::size_t>(last) + 1;  // Wraps around to 0 where there is none.
 }
 
 // The inverse; nothing where the matrix is not positive definite to within rounding. Rotations are
