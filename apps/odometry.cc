@@ -8,6 +8,7 @@
 #include <functional>
 #include <iostream>
 #include <optional>
+#include <set>
 
 #include "apps/app.h"
 #include "apps/odometry_flags.h"
@@ -38,12 +39,14 @@ double SecondsSince(Clock::time_point start) {
   return std::chrono::duration<double>(Clock::now() - start).count();
 }
 
-// All that the results depend on besides the scans' bytes, whose hashes are in the records.
+// All that the results depend on besides the scans' bytes, whose hashes are in the records: where
+// they lie does not matter.
 std::string JournalHeader(const ScanSequence& sequence) {
+  static const std::set<std::string> kWithoutSay = {
+      "out", "threads", "restart", "write_map_voxel_m", "kitti_root", "scans", "ground_truth"};
   std::vector<std::string> parts = {"icpscape-odometry", "version=" + Version()};
   for (const auto& [name, value] : OwnFlagValues()) {
-    if (name != "out" && name != "threads" && name != "restart" && name != "write_map_voxel_m" &&
-        name != "ground_truth") {
+    if (kWithoutSay.count(name) == 0) {
       parts.push_back(name + "=" + value);
     }
   }

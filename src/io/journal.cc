@@ -91,7 +91,7 @@ void Journal::Load(const std::string& header) {
     if (number == 1 && line.substr(0, blank) != header) {
       throw InputError(path_.string() + ": was written with " +
                        Difference(line.substr(0, blank), header) +
-                       "; expected the same, or another folder.");
+                       "; expected the same, another folder, or to begin anew.");
     }
     if (number > 1) {
       records_.push_back(line.substr(0, blank));

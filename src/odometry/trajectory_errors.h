@@ -74,7 +74,8 @@ enum class Alignment {
 };
 
 /// T_truth_estimate, from the estimate's world to the truth's. Nothing for kRigid where either
-/// trajectory's positions lie on one line: then the rotation about it is anybody's guess.
+/// trajectory's positions lie on one line, to a hundredth of its length: then the rotation about it
+/// is anybody's guess.
 std::optional<SE3d> AlignmentOf(const TrajectoryPair& pair, Alignment alignment);
 
 /// Errors of poses, one entry each: |t(E)| in metres and angle(E) in radians.

@@ -285,6 +285,14 @@ TEST_F(OdometryApp, GoesOnWithTheSameFlagsAlone) {
   EXPECT_FALSE(std::filesystem::exists(Path("out/manifest.json")));  // The mark of a finished run.
   EXPECT_EQ(Run({frames, "--mode=two_stage", "--restart"}).code, 0);
 
+  // The data may have moved since.
+  std::filesystem::rename(Path("kitti"), Path("moved"));
+  EXPECT_EQ(RunProgram("odometry", {"--kitti_root=" + Path("moved"), "--sequence=05", frames,
+                                    "--mode=two_stage", "--out=" + Path("out")})
+                .code,
+            0);
+  std::filesystem::rename(Path("moved"), Path("kitti"));
+
   // Not even --restart takes the folder from a run that is at it.
   const int file = open(Path("out/journal.txt").c_str(), O_RDWR | O_CLOEXEC);
   ASSERT_EQ(flock(file, LOCK_EX), 0);
