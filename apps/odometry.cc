@@ -47,7 +47,8 @@ std::string JournalHeader(const ScanSequence& sequence) {
   std::vector<std::string> parts = {"icpscape-odometry", "version=" + Version()};
   for (const auto& [name, value] : OwnFlagValues()) {
     if (kWithoutSay.count(name) == 0) {
-      parts.push_back(name + "=" + value);
+      parts.push_back(name);
+      parts.back().append("=").append(value);
     }
   }
   parts.push_back("scans=" + std::to_string(sequence.scans.size()));
