@@ -226,6 +226,13 @@ void CovarianceReport::AddDraws(const std::string& metric, const std::vector<Dra
     std::printf(" (%ld more have no result)", calibration.failed);
   }
   std::printf(":        rx (mdeg)       ry       rz  tx (mm)       ty       tz\n");
+  if (calibration.unconverged > 0) {
+    std::printf(
+        "warning: %ld of them ended at the limit of iterations and not where the gradient "
+        "vanishes: neither bias nor NEES are those of a minimum\n",
+        calibration.unconverged);
+  }
+  manifest->SetResult("unconverged_" + metric, static_cast<double>(calibration.unconverged));
   PrintDeviations("bias", errors.mean);
   PrintDeviations("its standard error", errors.standard_error);
   PrintDeviations("standard deviation", errors.deviation);
