@@ -108,6 +108,8 @@ void ReportCovariances(const std::string& metric, const CovarianceSums& sums,
         reason = "the pairs do not determine all six degrees of freedom.";
       } else if (estimator == Estimator::kCensiRingBias && !sums.ring_bias) {
         reason = "the points have no rings.";
+      } else if (estimator == Estimator::kSandwichRematched && sums.clusters > 6) {
+        reason = "where the pairs follow the pose, the cost has no minimum here.";
       }
       std::printf("  %-19s none: %s\n", EstimatorName(estimator), reason);
     }
@@ -224,6 +226,13 @@ void CovarianceReport::AddDraws(const std::string& metric, const std::vector<Dra
     std::printf(" (%ld more have no result)", calibration.failed);
   }
   std::printf(":        rx (mdeg)       ry       rz  tx (mm)       ty       tz\n");
+  if (calibration.unconverged > 0) {
+    std::printf(
+        "warning: %ld of them ended at the limit of iterations and not where the gradient "
+        "vanishes: neither bias nor NEES are those of a minimum\n",
+        calibration.unconverged);
+  }
+  manifest->SetResult("unconverged_" + metric, static_cast<double>(calibration.unconverged));
   PrintDeviations("bias", errors.mean);
   PrintDeviations("its standard error", errors.standard_error);
   PrintDeviations("standard deviation", errors.deviation);
@@ -236,17 +245,18 @@ void CovarianceReport::AddDraws(const std::string& metric, const std::vector<Dra
   actual.insert(actual.end(), 13, "nan");
   AppendUpperTriangle(errors.covariance, &actual);
   calibration_.AddRow(std::move(actual));
-  std::printf("  NEES (ideally 6):    about mean  sd too small by  about truth\n");
+  std::printf(
+      "  NEES (ideally 6):    about mean  sd too small by  about truth   draws  95 %% bounds\n");
   for (const EstimatorCalibration& entry : calibration.estimators) {
     const char* name = EstimatorName(entry.estimator);
     if (entry.draws < 2) {
-      std::printf("  %-19s %11s\n", name, "none");
+      std::printf("  %-19s %11s %37ld\n", name, "none", entry.draws);
       continue;
     }
     const Nees& mean = entry.about_mean;
     const Nees& truth = entry.about_truth;
-    std::printf("  %-19s %11.2f %16.2f %12.2f\n", name, mean.mean, mean.Overconfidence(),
-                truth.mean);
+    std::printf("  %-19s %11.2f %16.2f %12.2f %7ld  %.2f to %.2f\n", name, mean.mean,
+                mean.Overconfidence(), truth.mean, entry.draws, mean.lower, mean.upper);
     std::vector<std::string> row = {metric,
                                     name,
                                     std::to_string(entry.draws),
@@ -263,9 +273,9 @@ void CovarianceReport::AddDraws(const std::string& metric, const std::vector<Dra
     manifest->SetResult("nees_about_mean_" + metric + "_" + name, mean.mean);
     manifest->SetResult("nees_about_truth_" + metric + "_" + name, truth.mean);
   }
-  const Nees& bounds = calibration.estimators.front().about_mean;
-  std::printf("  95 %% of right covariances are between %.2f and %.2f about the mean\n",
-              bounds.lower, bounds.upper);
+  std::printf(
+      "  (over the draws that have that covariance; bounds: where it is right, 95 %% of the means\n"
+      "  about the mean)\n");
 }
 
 void CovarianceReport::WritePair(const std::filesystem::path& out) const {

@@ -83,8 +83,10 @@ class Run {
     for (std::size_t i = begin; i < end; ++i) {
       take(i);
       if (map_) {
-        map_->Insert(odometry_.last_scan()->cloud, records_.back().result.T_world_lidar,
-                     static_cast<int>(i));
+        NamingTheScan(i, [&] {
+          map_->Insert(odometry_.last_scan()->cloud, records_.back().result.T_world_lidar,
+                       static_cast<int>(i));
+        });
       }
       progress.Show(static_cast<int>(i + 1 - begin));
     }

@@ -161,6 +161,7 @@ Calibration Calibrate(const std::vector<DrawResult>& draws) {
   for (const DrawResult& draw : draws) {
     if (draw.usable) {
       all_errors.push_back(draw.error);
+      calibration.unconverged += draw.termination == Termination::kMaxIterations ? 1 : 0;
     } else {
       ++calibration.failed;
     }

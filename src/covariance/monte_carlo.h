@@ -77,6 +77,9 @@ struct EstimatorCalibration {
 struct Calibration {
   ErrorStatistics errors;  ///< About the truth: their mean is the bias.
   long failed = 0;         ///< Draws without a usable result, which are left out.
+  /// Draws that ended at the limit of iterations. They count, though no theory that starts from a
+  /// vanishing gradient speaks of them.
+  long unconverged = 0;
   std::vector<EstimatorCalibration> estimators;
 };
 /// Throws ComputationError where fewer than two draws have a result.

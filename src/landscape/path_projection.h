@@ -18,9 +18,10 @@ struct PathProjection {
 ///   d(u)^2 = |t - t_u|^2 + (L angle(R_u^T R))^2,
 /// L being the `rotation_length_m` at which a rotation counts as a displacement. Beyond the ends of
 /// the interval that is the end itself. Among equals the smallest u. Found by sampling the interval
-/// and zooming in about the least sample: exact to 1e-8 of the interval, and to rounding for poses
-/// on the path. A dip of d narrower than a hundredth of the interval can be missed: such a path
-/// turns by several radians within it.
+/// and zooming in about the least sample: exact to rounding for poses on the path. Beside it d is
+/// flat about its least value, and rounding hides where that is: u is off by some 1e-8 d over the
+/// path's length per u. A dip of d narrower than a hundredth of the interval can be missed: such a
+/// path turns by several radians within it.
 PathProjection ProjectOntoPath(const Path& path, const SE3d& T, double u_min, double u_max,
                                double rotation_length_m);
 

@@ -249,6 +249,7 @@ const char* TerminationName(Termination termination) {
 
 MinimizerSummary Minimize(const JointObjective& objective, const SE3d& T_start,
                           const MinimizerOptions& options) {
+  CHECK(options.free != DofMask{}) << "no direction is free";
   const Parameters x = ToParameters(T_start);
   Loop loop(objective, options);
   return options.reassociation == Reassociation::kEveryStep

@@ -1,7 +1,21 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "src/odometry/local_map.h"
 
+#include <vector>
+
 namespace icpscape {
+namespace {
+
+// The points that are no farther from the sensor.
+PointCloud Within(double radius_m, const PointCloud& scan) {
+  std::vector<char> keep(scan.size());
+  for (std::size_t i = 0; i < scan.size(); ++i) {
+    keep[i] = scan.Point(i).squaredNorm() <= radius_m * radius_m ? 1 : 0;
+  }
+  return scan.Select(keep);
+}
+
+}  // namespace
 
 LocalMap::LocalMap(const LocalMapOptions& options, bool points, unsigned needs)
     : options_(options),
@@ -18,7 +32,7 @@ void LocalMap::Insert(const PreparedScan& scan, const SE3d& T_world_lidar, int s
     if (options_.scans > 0) {
       map->RemoveBefore(scan_number - options_.scans + 1);
     }
-    map->Insert(cloud, T_world_lidar, scan_number);
+    map->Insert(Within(options_.radius_m, cloud), T_world_lidar, scan_number);
   };
   if (needs_points_) {
     insert(scan.cloud, &points_);

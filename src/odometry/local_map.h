@@ -11,7 +11,7 @@ namespace icpscape {
 
 struct LocalMapOptions {
   double voxel_m = 0.5;  ///< One point per voxel; of edges and of planar points likewise.
-  double radius_m = 80;  ///< Points farther from the vehicle are dropped.
+  double radius_m = 80;  ///< Points farther from the vehicle are dropped, or never come in.
   /// Only points of so many last scans, whether all of them went into the map or not; 0 is no
   /// limit. 1 is the paper's.
   int scans = 0;

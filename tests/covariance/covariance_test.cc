@@ -319,6 +319,22 @@ TEST(Covariance, UndeterminedProblemsHaveNone) {
   EXPECT_FALSE(sums.ring_bias);
 }
 
+// B is not symmetric. By hand, with B = I + E_01 / 2 and so B^-1 = I - E_01 / 2:
+// B^-1 diag(1, 4, 1, 1, 1, 1) B^-T has 1 + 4 / 4, -4 / 2 and 4 in its corner.
+TEST(Covariance, TheRematchedSandwichHasItsBreadTheRightWayRound) {
+  CovarianceSums sums;
+  sums.gauss_newton = Mat6::Identity();
+  sums.rematched_hessian = Mat6::Identity();
+  sums.rematched_hessian(0, 1) = 0.5;
+  sums.cluster_scores = Mat6::Identity();
+  sums.cluster_scores(1, 1) = 4;
+  Mat6 expected = Mat6::Identity();
+  expected.topLeftCorner<2, 2>() << 2, -2, -2, 4;
+  const auto covariance = EstimateCovariance(Estimator::kSandwichRematched, sums, {});
+  ASSERT_TRUE(covariance);
+  EXPECT_LE((*covariance - expected).norm(), 1e-14);
+}
+
 TEST(Covariance, WarnsWherePairsFollowThePose) {
   EXPECT_NE(CovarianceWarning("point_to_point"), "");
   EXPECT_EQ(CovarianceWarning("point_to_plane"), "");

@@ -141,6 +141,21 @@ TEST(Degeneracy, XicpCountsContributions) {
   EXPECT_EQ(tilted(60, 520).localizability, Localizability::kFull);
 }
 
+// Lever arms begin at the points' centroid, here 10 m beside the sensor: about it the points, 1 m
+// above and below, hold the turn about y. Seen from the sensor they would hold the one about z.
+TEST(Degeneracy, XicpTurnsAboutTheCentroid) {
+  Constraints wall;
+  for (int i = 0; i < 100; ++i) {
+    wall.push_back({Vec3(0, 10, i % 2 == 0 ? 1 : -1), Vec3::UnitX()});
+  }
+  for (const Verdict& verdict : JudgeXicp(HessianOf(wall), wall)) {
+    if (verdict.direction.head<3>().norm() > 0.5) {
+      const bool about_y = std::abs(verdict.direction[1]) > 0.9;
+      EXPECT_NEAR(verdict.value, about_y ? 100 : 0, 1e-9) << verdict.direction.transpose();
+    }
+  }
+}
+
 // The eigenvalue rule counts points; the condition numbers do not.
 TEST(Degeneracy, OnlyTheEigenvalueRuleDependsOnTheNumberOfPoints) {
   const Mat6 room = HessianOf(Room());

@@ -101,10 +101,12 @@ TEST(MonteCarlo, ADrawWithoutAResultIsLeftOut) {
     draws[i].usable = true;
     draws[i].error = static_cast<double>(i) * Vec6::Ones();
   }
+  draws[1].termination = Termination::kMaxIterations;
   draws[0].covariances[0] = Mat6::Identity();
   draws[2].covariances[0] = Mat6::Identity();
   const Calibration calibration = Calibrate(draws);
   EXPECT_EQ(calibration.failed, 1);
+  EXPECT_EQ(calibration.unconverged, 1);
   EXPECT_EQ(calibration.errors.n, 3);
   EXPECT_EQ(calibration.errors.mean, Vec6::Ones());
   // Of the errors 0 and 2 alone: 6 for each, about their mean of 1, over N - 1 = 1.

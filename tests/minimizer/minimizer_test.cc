@@ -140,6 +140,13 @@ TEST_P(BothModes, MovesInTheFreeDirectionsAlone) {
   }
 }
 
+TEST_P(BothModes, NeedsAFreeDirection) {
+  const ClosestPointMatcher matcher(Room().source, Room().target);
+  MinimizerOptions options = Options();
+  options.free = {};
+  EXPECT_DEATH(Minimize(Objective("point_to_plane", matcher), SE3d(), options), "free");
+}
+
 TEST_P(BothModes, ShowsEveryIterateToTheObserver) {
   const ClosestPointMatcher matcher(Room().source, Room().target);
   const Objective objective("point_to_plane", matcher);

@@ -339,6 +339,30 @@ TEST(Odometry, KeepsTheMapThatItIsToldTo) {
   EXPECT_EQ(all, points_of_map({0.5, 80, 4}));
 }
 
+// The last scan's own points are no exception; and a stray point, too far away for any voxel, is
+// left out instead of ending the drive.
+TEST(Odometry, MapsNothingBeyondItsRadius) {
+  OdometryOptions options = Options(OdometryMode::kScanToMap);
+  options.preprocessing.voxel_m = 0;
+  options.map = {1e-3, 20, 0};
+  std::vector<PointCloud> scans = FirstScans(2);
+  std::size_t within = 0;
+  for (std::size_t i = 0; i < scans[0].size(); ++i) {
+    within += scans[0].Point(i).norm() <= 20 ? 1 : 0;
+  }
+  ASSERT_LT(within, scans[0].size());
+  const auto results = Drive(options, scans);
+  EXPECT_EQ(results[1].map_points, within);
+  for (PointCloud& scan : scans) {
+    scan.x[0] = 1e6F;
+  }
+  for (const OdometryMode mode : {OdometryMode::kScanToMap, OdometryMode::kTwoStage}) {
+    options.mode = mode;
+    options.map_every = 1;
+    EXPECT_TRUE(Drive(options, scans)[1].registered);
+  }
+}
+
 // LOAM's mapping corrects poses at its own slow pace; the predictor follows the fast stage.
 TEST(Odometry, MapsEveryFewScansInTwoStages) {
   OdometryOptions options = Options(OdometryMode::kTwoStage);

@@ -285,6 +285,11 @@ TEST(AbsoluteErrors, RigidAlignmentIsTheBest) {
 TEST(AbsoluteErrors, NoRigidAlignmentOnALine) {
   const TrajectoryPair pair = {Drive(Forward(1), 50), Drive(Forward(1.1), 50), {}};
   EXPECT_FALSE(AlignmentOf(pair, Alignment::kRigid));
+  // One of the two is enough, whichever it is.
+  const std::vector<SE3d> winding = WindingDrive(static_cast<int>(pair.truth.size()));
+  EXPECT_TRUE(AlignmentOf({winding, winding, {}}, Alignment::kRigid));
+  EXPECT_FALSE(AlignmentOf({winding, pair.estimate, {}}, Alignment::kRigid));
+  EXPECT_FALSE(AlignmentOf({pair.truth, winding, {}}, Alignment::kRigid));
   EXPECT_TRUE(AlignmentOf(pair, Alignment::kFirstPose));
 }
 
