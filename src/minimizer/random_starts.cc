@@ -31,6 +31,11 @@ std::vector<SE3d> RandomStarts(const SE3d& T_reference, const RandomStartOptions
     Vec6 xi;
     xi.head<3>() = RandomVector(options.rotation_rad, &engine);
     xi.tail<3>() = RandomVector(options.translation_m, &engine);
+    for (int axis = 0; axis < 6; ++axis) {
+      if (!options.minimizer.free[static_cast<std::size_t>(axis)]) {
+        xi[axis] = 0;
+      }
+    }
     starts.push_back(T_reference * SE3d::Exp(xi));
   }
   return starts;

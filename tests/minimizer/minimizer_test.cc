@@ -375,6 +375,17 @@ TEST(RandomStarts, StayWithinTheirLimitsAndRepeat) {
   EXPECT_NE(starts[7].Matrix(), RandomStarts(kMotion, options)[7].Matrix());
 }
 
+TEST(RandomStarts, StayWithinTheFreeDirections) {
+  RandomStartOptions options;
+  options.minimizer.free = kPlanarDof;
+  const SE3d reference = kMotion;
+  for (const SE3d& start : RandomStarts(reference, options)) {
+    const Vec6 xi = (reference.Inverse() * start).Log();
+    EXPECT_NEAR(xi.head<2>().norm() + std::abs(xi[5]), 0, 1e-12);
+    EXPECT_GT(xi.segment<3>(2).norm(), 0);
+  }
+}
+
 TEST(RandomStarts, CountFailures) {
   const ClosestPointMatcher matcher(Room().source, Room().target);
   const Objective objective("point_to_plane", matcher);
