@@ -12,6 +12,7 @@
 #include "src/common/text.h"
 #include "src/io/kitti.h"
 #include "src/io/output.h"
+#include "src/io/scan_sequence.h"
 
 DEFINE_string(estimate, "",
               "Estimated trajectories, separated by commas: KITTI's format (12 columns) or TUM's "
@@ -19,6 +20,9 @@ DEFINE_string(estimate, "",
 DEFINE_string(ground_truth, "", "The true ones, as many, in either format.");
 DEFINE_string(kitti_root, "", "Or: folder of the KITTI poses, ROOT/poses/SS.txt, ...");
 DEFINE_string(sequences, "", "... and the sequences that were estimated, as in 00,07.");
+DEFINE_string(frames, "",
+              "Frames of the truth that were estimated, as in 0:99; none is all, or, where the "
+              "estimates have timestamps, those of the same times.");
 DEFINE_string(calib, "",
               "If given, the estimates are poses of the lidar and the truth of the camera: they "
               "are compared as the camera's, through this calib.txt, one or one per estimate.");
@@ -92,9 +96,38 @@ Files FilesFromFlags() {
   return files;
 }
 
+// The truth, of it --frames; for --kitti_root with the times of sequences/SS/times.txt, if it is
+// there.
+Trajectory Truth(const Files& files, std::size_t i) {
+  Trajectory truth = ReadTrajectory(files.truths[i]);
+  std::vector<SE3d>& poses = truth.T_world_body;
+  if (!FLAGS_kitti_root.empty() && truth.times_s.empty()) {
+    const std::filesystem::path path =
+        std::filesystem::path(FLAGS_kitti_root) / "sequences" / files.names[i] / "times.txt";
+    truth.times_s = ReadTimes(path);
+    if (!truth.times_s.empty() && truth.times_s.size() != poses.size()) {
+      throw InputError(path.string() + ": " + std::to_string(truth.times_s.size()) +
+                       " times; expected one for each of " + std::to_string(poses.size()) +
+                       " poses.");
+    }
+  }
+  const FrameRange frames = FrameRangeFromText(FLAGS_frames);
+  const int count = static_cast<int>(poses.size());
+  if (frames.first >= count || frames.last >= count) {
+    throw InputError(files.truths[i] + ": " + std::to_string(count) +
+                     " poses; expected --frames within 0:" + std::to_string(count - 1) + ".");
+  }
+  const int end = frames.last < 0 ? count : frames.last + 1;
+  poses = {poses.begin() + frames.first, poses.begin() + end};
+  if (!truth.times_s.empty()) {
+    truth.times_s = {truth.times_s.begin() + frames.first, truth.times_s.begin() + end};
+  }
+  return truth;
+}
+
 NamedTrajectory Load(const Files& files, std::size_t i, Manifest* manifest) {
   Trajectory estimate = ReadTrajectory(files.estimates[i]);
-  const Trajectory truth = ReadTrajectory(files.truths[i]);
+  const Trajectory truth = Truth(files, i);
   manifest->AddInput(files.estimates[i]);
   manifest->AddInput(files.truths[i]);
   if (!files.calibrations.empty()) {
@@ -122,6 +155,7 @@ void Evaluate() {
   RequireFlag(FLAGS_max_time_difference_s >= 0 && std::isfinite(FLAGS_max_time_difference_s),
               "max_time_difference_s", Number(FLAGS_max_time_difference_s),
               "a time of at least 0 s");
+  FrameRangeFromText(FLAGS_frames);
   RequireFlag(FLAGS_rpe_frames >= 1, "rpe_frames", std::to_string(FLAGS_rpe_frames), "at least 1");
   RequireFlag(!FLAGS_out.empty(), "out", FLAGS_out, "a folder");
   const std::filesystem::path out = FLAGS_out;

@@ -59,27 +59,6 @@ double ParseTime(const std::string& text) {
   return ParseNumber(text);
 }
 
-// Increasing times, one per line, NaN where a line is blank: so KITTI marks scans that were lost.
-// Nothing where there is no file.
-std::vector<double> ReadTimes(const std::filesystem::path& path) {
-  std::ifstream in(path);
-  std::vector<double> times;
-  double last = -std::numeric_limits<double>::infinity();
-  for (std::string line; std::getline(in, line);) {
-    line.erase(line.find_last_not_of(" \t\r") + 1);
-    times.push_back(ParseTime(line));
-    if (line.empty()) {
-      continue;
-    }
-    if (!std::isfinite(times.back()) || !(times.back() > last)) {
-      throw InputError(path.string() + ":" + std::to_string(times.size()) + ": \"" + line +
-                       "\"; expected a time after the one before.");
-    }
-    last = times.back();
-  }
-  return times;
-}
-
 // Of the scans, whose frames these are: line by line of `times`; made up where there are none.
 void SetTimes(const std::vector<double>& times, const std::vector<std::size_t>& frames,
               const std::filesystem::path& path, ScanSequence* sequence) {
@@ -129,6 +108,25 @@ int LastFrame(const KittiSequence& kitti) {
 }
 
 }  // namespace
+
+std::vector<double> ReadTimes(const std::filesystem::path& path) {
+  std::ifstream in(path);
+  std::vector<double> times;
+  double last = -std::numeric_limits<double>::infinity();
+  for (std::string line; std::getline(in, line);) {
+    line.erase(line.find_last_not_of(" \t\r") + 1);
+    times.push_back(ParseTime(line));
+    if (line.empty()) {
+      continue;
+    }
+    if (!std::isfinite(times.back()) || !(times.back() > last)) {
+      throw InputError(path.string() + ":" + std::to_string(times.size()) + ": \"" + line +
+                       "\"; expected a time after the one before.");
+    }
+    last = times.back();
+  }
+  return times;
+}
 
 FrameRange FrameRangeFromText(const std::string& text) {
   FrameRange range;

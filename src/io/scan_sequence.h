@@ -34,6 +34,11 @@ struct ScanSequence {
   void Reverse();
 };
 
+/// A file of times, one per line: increasing, NaN where a line is blank (so KITTI marks scans that
+/// were lost). Seconds, or KITTI's dates and times as seconds since the month began. Nothing where
+/// there is no file. Throws InputError.
+std::vector<double> ReadTimes(const std::filesystem::path& path);
+
 /// A sequence of the KITTI odometry benchmark (see KittiSequence): its scans, and its times, poses
 /// and calibration where their files are there; or one that icpscape-simulate wrote. Frames are the
 /// numbers of the scans. Throws InputError where a scan of the range is missing, or a file is
