@@ -64,7 +64,8 @@ int DrawsFromFlags() {
     return info.current_value == info.default_value;
   };
   if (FLAGS_scene.empty()) {
-    RequireFlag(FLAGS_draws == 0 || is_default("draws"), "draws", std::to_string(FLAGS_draws),
+    RequireFlag(FLAGS_draws == 0 || gflags::GetCommandLineFlagInfoOrDie("draws").is_default,
+                "draws", std::to_string(FLAGS_draws),
                 "0 without --scene, since only simulated scans can be drawn anew");
     return 0;
   }

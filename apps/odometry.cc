@@ -200,6 +200,12 @@ void PrintSpeed(const std::vector<FrameRecord>& records, Manifest* manifest) {
   manifest->SetResult("mean_s_per_scan", mean);
 }
 
+void PrintPath(const std::vector<SE3d>& T_world_body) {
+  const double away_m = (T_world_body.back().t() - T_world_body.front().t()).norm();
+  std::printf("path: %.1f m, %.1f m from its start to its end\n", PathLengths(T_world_body).back(),
+              away_m);
+}
+
 void PrintEnd(const TrajectoryPair& pair, Manifest* manifest) {
   const SE3d truth = pair.truth.front().Inverse() * pair.truth.back();
   const SE3d error = truth.Inverse() * (pair.estimate.front().Inverse() * pair.estimate.back());
@@ -216,6 +222,14 @@ void PrintFailures(const std::vector<FrameRecord>& records, Manifest* manifest) 
   if (failures > 0) {
     std::cout << failures << " scans could not be registered: the prediction stands in\n";
   }
+  const auto unfinished =
+      std::count_if(records.begin() + 1, records.end(), [](const FrameRecord& record) {
+        return record.result.termination == Termination::kMaxIterations;
+      });
+  if (unfinished > 0) {
+    std::cout << unfinished << " scans ended at the limit of steps: see frames.csv\n";
+  }
+  manifest->SetResult("ended_at_limit", static_cast<double>(unfinished));
   manifest->SetResult("not_registered", static_cast<double>(failures));
 }
 
@@ -244,6 +258,7 @@ void RunOdometry() {
     WritePly(out / "map.ply", run.map()->Cloud(SE3d()));
   }
   PrintFailures(run.records(), &manifest);
+  PrintPath(named.pair.estimate);
   PrintSpeed(run.records(), &manifest);
   if (!sequence.T_world_lidar.empty() && sequence.scans.size() > 1) {
     named.pair.truth = KittiPoses(sequence, sequence.T_world_lidar);
@@ -257,6 +272,7 @@ void RunOdometry() {
   std::cout << "\nwritten: " << (out / "trajectory_kitti.txt").string()
             << ", trajectory_tum.txt, frames.csv, timings.csv, journal.txt"
             << (run.map() ? ", map.ply" : "")
+            << (named.pair.truth.empty() ? "" : ", errors.csv, summary.csv, pose_errors.csv")
             << (drawn ? ", trajectory.csv, trajectory.svg, trajectory.png" : ", trajectory.csv")
             << ", manifest.json\n";
 }

@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
+#include <filesystem>
 #include <iostream>
 #include <utility>
 
@@ -206,6 +207,9 @@ void CheckPairFlags(const std::vector<std::string>& metrics, bool needs_ground_t
         "no ground truth: expected --ground_truth=FILE (4x4 T_target_source as text; "
         "icpscape-register writes one that can stand in).");
   }
+  RequireFlag(FLAGS_initial == "identity" || FLAGS_initial == "previous_motion" ||
+                  std::filesystem::is_regular_file(FLAGS_initial),
+              "initial", FLAGS_initial, "identity, previous_motion or a file");
   SeedFromFlags();
   PreprocessingFromFlags(metrics);
   ThreadsFromFlags();

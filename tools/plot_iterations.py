@@ -41,7 +41,8 @@ def draw(runs, column, title):
     top.set_title(title, fontsize=11, parse_math=False)
     top.set_ylabel(LABELS[column])
     top.set_ylim(0, top.get_ylim()[1] * (1.04 + 0.08 * ((len(runs) + 1) // 2)))  # And a legend.
-    bottom.set_yscale("log")
+    if any(step > 0 for run in runs.values() for step in run["step_m"]):
+        bottom.set_yscale("log")
     bottom.set_ylabel("step (m)")
     bottom.set_xlabel("iteration")
     bottom.xaxis.set_major_locator(MaxNLocator(integer=True))
