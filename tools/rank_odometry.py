@@ -7,12 +7,15 @@
 Simulates a drive along the poses of a KITTI sequence into out/drive (scans that are there are
 kept), runs icpscape-odometry on it for every variant, and prints t_err, r_err, ATE and the median
 time per scan. Beside them stands what the landscapes of scan pairs along the drive predict: the
-mean of u* - 1 is the share by which a variant misjudges the way from scan to scan.
+mean of u* - 1, weighted by the length of the motion, is the share by which a variant misjudges the
+way from scan to scan.
 """
 import argparse
 import csv
 import json
+import math
 import pathlib
+import re
 import statistics
 import subprocess
 import sys
@@ -48,6 +51,7 @@ def run(command):
     done = subprocess.run([str(word) for word in command], capture_output=True, text=True)
     if done.returncode != 0:
         sys.exit(f"rank_odometry.py: {' '.join(map(str, command))}: {done.stderr.strip()}")
+    return done.stdout
 
 
 def read_results(folder):
@@ -55,16 +59,19 @@ def read_results(folder):
 
 
 def predicted_drift(program, drive, flags, frames, out):
-    """Mean of u* - 1 over pairs of scans; none for joint metrics, and where a loss bends the cost."""
+    """Sum of (u* - 1) |motion| over sum of |motion|, for pairs of scans; none for joint metrics, and
+    where a loss bends the cost."""
     metrics = flags[0].split("=")[1]
-    if "," in metrics or any(flag.startswith("--loss") for flag in flags):
+    if not frames or "," in metrics or any(flag.startswith("--loss") for flag in flags):
         return None
-    minima = []
+    off_m = way_m = 0
     for frame in frames:
-        run([program, *drive, f"--frame={frame}", *flags, "--u_min=0.5", "--u_max=1.5",
-             "--samples=101", "--threads=1", f"--out={out}"])
-        minima.append(read_results(out)["argmin_u_" + metrics] - 1)
-    return statistics.mean(minima)
+        printed = run([program, *drive, f"--frame={frame}", *flags, "--u_min=0.5", "--u_max=1.5",
+                       "--samples=101", "--threads=1", f"--out={out}"])
+        motion_m = float(re.search(r"motion: ([0-9.]+) m", printed)[1])
+        off_m += (read_results(out)["argmin_u_" + metrics] - 1) * motion_m
+        way_m += motion_m
+    return off_m / way_m
 
 
 def main():
@@ -90,21 +97,24 @@ def main():
         run([flags.bin / "icpscape-odometry", *drive, *(shared or []), *own, "--threads=1",
              "--restart", "--write_map_voxel_m=0", f"--out={out}"])
         results = read_results(out)
-        ate = next(value for key, value in results.items() if key.startswith("ate_rmse_m_rigid"))
+        ate = next((value for key, value in results.items()
+                    if key.startswith("ate_rmse_m_rigid")), math.nan)
         with open(out / "timings.csv", newline="") as file:
             seconds = [float(r["read_s"]) + float(r["odometry_s"]) for r in csv.DictReader(file)]
         with open(out / "frames.csv", newline="") as file:
             steps = [int(r["iterations"]) for r in csv.DictReader(file)]
         drift = shared and predicted_drift(flags.bin / "icpscape-landscape", drive, shared, frames,
                                            flags.out / "runs" / "landscape")
-        rows.append((results["t_err_percent"], name, results["r_err_deg_per_100m"], ate,
+        # A drive of less than 100 m has neither t_err nor r_err.
+        rows.append((results.get("t_err_percent", math.nan), name,
+                     results.get("r_err_deg_per_100m", math.nan), ate,
                      results["not_registered"], statistics.mean(steps[1:]),
                      1e3 * statistics.median(seconds), drift))
         print(f"{name}: t_err {rows[-1][0]:.3f} %", file=sys.stderr, flush=True)
     print("| variant | t_err, % | r_err, deg/100 m | ATE, m | not registered | steps a scan | "
           "ms a scan | landscapes: mean u* - 1, % |")
     print("|---|---|---|---|---|---|---|---|")
-    for t_err, name, r_err, ate, failures, steps, ms, drift in sorted(rows):
+    for t_err, name, r_err, ate, failures, steps, ms, drift in sorted(rows, key=lambda r: r[:2]):
         predicted = "" if drift is None else f"{100 * drift:+.2f}"
         print(f"| {name} | {t_err:.3f} | {r_err:.3f} | {ate:.2f} | {failures:.0f} | {steps:.1f} | "
               f"{ms:.0f} | {predicted} |")

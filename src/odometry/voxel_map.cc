@@ -54,7 +54,7 @@ PointCloud VoxelMap::Cloud(const SE3d& T_other_map) const {
       values->resize(size);
     }
   }
-  const Mat3 R = T_other_map.R();
+  const Mat3& R = T_other_map.R();
   for (std::size_t i = 0; i < size; ++i) {
     const Eigen::Vector3f p = (T_other_map * points_[i].p).cast<float>();
     cloud.x[i] = p.x(), cloud.y[i] = p.y(), cloud.z[i] = p.z();
