@@ -31,8 +31,9 @@ namespace {
 
 constexpr double kDegrees = 180 / M_PI;
 
-void WriteIterations(const MinimizerSummary& summary, const std::filesystem::path& out) {
-  Table csv({"iteration", "cost", "rmse", "n", "gradient_norm", "smallest_eigenvalue",
+void WriteIterations(const std::string& metric, const MinimizerSummary& summary,
+                     const std::filesystem::path& out) {
+  Table csv({"metric", "iteration", "cost", "rmse", "n", "gradient_norm", "smallest_eigenvalue",
              "largest_eigenvalue", "step_m", "step_deg", "time_s", "qx", "qy", "qz", "qw", "tx_m",
              "ty_m", "tz_m"});
   std::printf("%4s %22s %12s %8s %11s %11s %11s %8s\n", "iter", "cost", "RMSE", "n", "eig min/max",
@@ -42,7 +43,8 @@ void WriteIterations(const MinimizerSummary& summary, const std::filesystem::pat
     std::printf("%4zu %22.15g %12.8f %8ld %11.3e %11.3e %11.3e %8.3f\n", i, it.cost, it.rmse, it.n,
                 it.smallest_eigenvalue / it.largest_eigenvalue, it.step_m, it.step_rad * kDegrees,
                 it.time_s);
-    std::vector<std::string> row = {std::to_string(i),
+    std::vector<std::string> row = {metric,
+                                    std::to_string(i),
                                     Number(it.cost),
                                     Number(it.rmse),
                                     std::to_string(it.n),
@@ -142,7 +144,7 @@ void Register() {
     throw ComputationError(objective.Name() + ": " + summary.message);
   }
   const SE3d& T = summary.T_target_source();
-  WriteIterations(summary, out);
+  WriteIterations(objective.Name(), summary, out);
   std::printf("%s: %s\nfinal cost: %s\n", TerminationName(summary.termination),
               summary.message.c_str(), Number(summary.final_cost()).c_str());
   manifest.SetResult("termination", TerminationName(summary.termination));
@@ -160,9 +162,8 @@ void Register() {
     }
   }
   const bool drawn =
-      RunPlotScript("plot_iterations.py",
-                    {(out / "iterations.csv").string(), "--out", (out / "iterations").string(),
-                     "--title", pair.title + "\n" + objective.Name()});
+      RunPlotScript("plot_iterations.py", {(out / "iterations.csv").string(), "--out",
+                                           (out / "iterations").string(), "--title", pair.title});
   manifest.AddTiming("figures");
   manifest.Write(out / "manifest.json");
   std::cout << "time: " << manifest.TimingsText() << '\n';
