@@ -8,20 +8,8 @@ solver, if given, stand at their nearest u with their own values; a panel shows 
 they are.
 """
 import argparse
-import csv
-from collections import defaultdict
 
-from plot_style import LABELS, plt, save, styles_of
-
-
-def read_by_metric(path):
-    curves = defaultdict(lambda: defaultdict(list))
-    with open(path, newline="") as file:
-        for row in csv.DictReader(file):
-            for column, value in row.items():
-                if column != "metric":
-                    curves[row["metric"]][column].append(float(value))
-    return curves
+from plot_style import LABELS, plt, read_groups, save, styles_of
 
 
 def draw_values(axes, curves, column, styles):
@@ -111,8 +99,9 @@ def main():
     parser.add_argument("--column", default="rmse", choices=sorted(LABELS))
     parser.add_argument("--title", default="")
     arguments = parser.parse_args()
-    iterates = read_by_metric(arguments.iterates) if arguments.iterates else {}
-    figure = draw(read_by_metric(arguments.curves), iterates, arguments.column, arguments.title)
+    iterates = read_groups(arguments.iterates, "metric") if arguments.iterates else {}
+    figure = draw(read_groups(arguments.curves, "metric"), iterates, arguments.column,
+                  arguments.title)
     save(figure, arguments.out)
 
 

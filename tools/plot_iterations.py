@@ -5,21 +5,9 @@
 Reads iterates.csv of icpscape-landscape (one line a metric) or iterations.csv of icpscape-register.
 """
 import argparse
-import csv
-from collections import defaultdict
 
 from matplotlib.ticker import MaxNLocator
-from plot_style import LABELS, plt, save, styles_of
-
-
-def read_runs(path):
-    runs = defaultdict(lambda: defaultdict(list))
-    with open(path, newline="") as file:
-        for row in csv.DictReader(file):
-            run = runs[row.pop("metric", "")]
-            for column, value in row.items():
-                run[column].append(float(value))
-    return runs
+from plot_style import LABELS, plt, read_groups, save, styles_of
 
 
 def draw(runs, column, title):
@@ -58,7 +46,7 @@ def main():
     parser.add_argument("--column", default="rmse", choices=("cost", "rmse"))
     parser.add_argument("--title", default="")
     arguments = parser.parse_args()
-    figure = draw(read_runs(arguments.table), arguments.column, arguments.title)
+    figure = draw(read_groups(arguments.table, "metric"), arguments.column, arguments.title)
     save(figure, arguments.out)
 
 

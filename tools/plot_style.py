@@ -1,7 +1,9 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""What the plots of metrics share: colours, line styles, labels, and how files are written."""
+"""What the plots share: how tables are read and files written, colours, line styles, labels."""
+import csv
 import itertools
 import os
+from collections import defaultdict
 
 import matplotlib
 
@@ -26,6 +28,19 @@ LABELS = {
     "cost": r"cost $\frac{1}{2} \Sigma \rho(|r|^2)$",
     "inlier_ratio": "inlier ratio",
 }
+
+
+def read_groups(path, group):
+    """The table's numbers by what stands in the column `group`, and then by column: lists of floats.
+    Without that column all rows are one group, "".
+    """
+    groups = defaultdict(lambda: defaultdict(list))
+    with open(path, newline="") as file:
+        for row in csv.DictReader(file):
+            columns = groups[row.pop(group, "")]
+            for column, value in row.items():
+                columns[column].append(float(value))
+    return groups
 
 
 def styles_of(metrics):

@@ -3,24 +3,12 @@
 """Draws trajectory.csv: estimated trajectories and, where it is known, the truth, seen from above;
 below, how far the estimate is off over the length of the path."""
 import argparse
-import csv
 import math
-from collections import defaultdict
 
-from plot_style import plt, save
+from plot_style import plt, read_groups, save
 
 TRUTH, ESTIMATE = "0.55", "tab:blue"
 COLUMNS = 4  # Sequences side by side.
-
-
-def read_sequences(path):
-    sequences = defaultdict(lambda: defaultdict(list))
-    with open(path, newline="") as file:
-        for row in csv.DictReader(file):
-            for column, value in row.items():
-                if column != "sequence":
-                    sequences[row["sequence"]][column].append(float(value))
-    return sequences
 
 
 def has_truth(sequence):
@@ -107,7 +95,7 @@ def main():
     parser.add_argument("--out", required=True, help="path of the figures, without extension")
     parser.add_argument("--title", default="")
     arguments = parser.parse_args()
-    figure = draw(read_sequences(arguments.trajectory), arguments.title)
+    figure = draw(read_groups(arguments.trajectory, "sequence"), arguments.title)
     save(figure, arguments.out)
 
 
