@@ -110,6 +110,12 @@ Trajectory Truth(const Files& files, std::size_t i) {
                        " times; expected one for each of " + std::to_string(poses.size()) +
                        " poses.");
     }
+    const auto blank = std::find_if(truth.times_s.begin(), truth.times_s.end(),
+                                    [](double time) { return std::isnan(time); });
+    if (blank != truth.times_s.end()) {
+      throw InputError(path.string() + ":" + std::to_string(blank - truth.times_s.begin() + 1) +
+                       ": a blank line; expected a time.");
+    }
   }
   const FrameRange frames = FrameRangeFromText(FLAGS_frames);
   const int count = static_cast<int>(poses.size());

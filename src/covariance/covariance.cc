@@ -207,7 +207,8 @@ std::string CovarianceWarning(const std::string& metric) {
   if (metric != "point_to_point") {
     return "";
   }
-  return "point_to_point: the closed forms over given pairs are not valid, since along surfaces the "
+  return "point_to_point: the closed forms over given pairs are not valid, since along surfaces "
+         "the "
          "pairs follow the pose (Bonnabel, Barczyk & Goulette 2016); trust Monte-Carlo, or at most "
          "sandwich_rematched.";
 }

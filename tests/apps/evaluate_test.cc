@@ -137,6 +137,12 @@ TEST_F(Evaluate, TakesPartOfTheTruthAndItsTimes) {
   // The devkit counts one period more than there is.
   const double mps = std::stod(ReadCsv(Path("out/errors.csv")).front().at("speed_mps"));
   EXPECT_NEAR(mps, devkit_mps / 2, 0.02 * mps);
+  folder_.Write("kitti/sequences/01/times.txt", "0\n\n" + times.substr(times.find('\n') + 1));
+  ExpectRefusal(RunProgram("evaluate", with_frames), 2, "301 times; expected one for each of 300");
+  times.replace(times.find("0.2"), times.find("\n0.4") - times.find("0.2"), "");
+  folder_.Write("kitti/sequences/01/times.txt", times);
+  ExpectRefusal(RunProgram("evaluate", with_frames), 2, "times.txt:2: a blank line");
+  std::filesystem::remove(Path("kitti/sequences/01/times.txt"));
   with_frames.back() = "--frames=100:300";
   ExpectRefusal(RunProgram("evaluate", with_frames), 2, "expected --frames within 0:299");
 }
