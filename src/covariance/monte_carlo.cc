@@ -2,50 +2,16 @@
 #include "src/covariance/monte_carlo.h"
 
 #include <algorithm>
-#include <atomic>
-#include <exception>
 #include <mutex>
-#include <thread>
 #include <utility>
 
 #include "src/common/error.h"
+#include "src/common/parallel.h"
 #include "src/simulation/scenes.h"
 #include "src/simulation/simulator.h"
 
 namespace icpscape {
 namespace {
-
-// Calls body(i) for every i below count. Not ParallelFor: while the scene's ray caster lives,
-// Embree holds oneTBB to one thread. The first exception is rethrown.
-void ForEachOnThreads(int count, int threads, const std::function<void(int)>& body) {
-  std::atomic<int> next{0};
-  std::exception_ptr failure;
-  std::mutex mutex;
-  const auto work = [&] {
-    for (int i = next++; i < count; i = next++) {
-      try {
-        body(i);
-      } catch (...) {
-        const std::lock_guard<std::mutex> lock(mutex);
-        if (!failure) {
-          failure = std::current_exception();
-        }
-        next = count;
-      }
-    }
-  };
-  std::vector<std::thread> helpers;
-  for (int i = 1; i < std::min(threads, count); ++i) {
-    helpers.emplace_back(work);
-  }
-  work();
-  for (std::thread& helper : helpers) {
-    helper.join();
-  }
-  if (failure) {
-    std::rethrow_exception(failure);
-  }
-}
 
 class Experiment {
  public:
@@ -141,10 +107,10 @@ std::vector<std::vector<DrawResult>> RunMonteCarlo(const MonteCarloOptions& opti
       options.metrics.size(), std::vector<DrawResult>(static_cast<std::size_t>(options.draws)));
   std::mutex mutex;
   int done = 0;
-  ForEachOnThreads(options.draws, options.threads, [&](int draw) {
-    const std::vector<DrawResult> of_draw = experiment.Draw(draw);
+  ParallelFor(static_cast<std::size_t>(options.draws), options.threads, [&](std::size_t draw) {
+    const std::vector<DrawResult> of_draw = experiment.Draw(static_cast<int>(draw));
     for (std::size_t m = 0; m < of_draw.size(); ++m) {
-      results[m][static_cast<std::size_t>(draw)] = of_draw[m];
+      results[m][draw] = of_draw[m];
     }
     const std::lock_guard<std::mutex> lock(mutex);
     ++done;

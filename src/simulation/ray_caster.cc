@@ -3,6 +3,7 @@
 
 #include <embree3/rtcore.h>
 #include <glog/logging.h>
+#include <oneapi/tbb/task_arena.h>
 
 #include <cmath>
 
@@ -14,7 +15,8 @@ struct RayCaster::Impl {
   RTCScene scene = nullptr;
 
   explicit Impl(Mesh m) : mesh(std::move(m)) {
-    device = rtcNewDevice("isa=sse2,threads=1");
+    // Not "threads=1", which would hold all of oneTBB to one thread while the device lives.
+    device = rtcNewDevice("isa=sse2");
     CHECK(device != nullptr) << "Embree does not start: error " << rtcGetDeviceError(nullptr);
     scene = rtcNewScene(device);
     // Robust: no ray slips between two triangles of one edge.
@@ -32,7 +34,9 @@ struct RayCaster::Impl {
       rtcAttachGeometry(scene, geometry);
       rtcReleaseGeometry(geometry);
     }
-    rtcCommitScene(scene);
+    // Built on one thread: the same tree on every machine.
+    tbb::task_arena arena(1);
+    arena.execute([&] { rtcJoinCommitScene(scene); });
     CHECK_EQ(rtcGetDeviceError(device), RTC_ERROR_NONE);
   }
   Impl(const Impl&) = delete;
