@@ -11,8 +11,6 @@
 #include "src/cloud/normals.h"
 #include "src/io/kitti.h"
 #include "src/matching/closest_point_matcher.h"
-#include "src/minimizer/ground_truth_check.h"
-#include "src/minimizer/random_starts.h"
 #include "src/objective/loss.h"
 #include "tests/support/matchers.h"
 #include "tests/support/real_scans.h"
@@ -355,81 +353,6 @@ TEST(Minimizer, IsBitIdenticalForAnyNumberOfThreads) {
   const SE3d one = Minimize(objective, SE3d(), options).T_target_source();
   options.threads = 3;
   EXPECT_EQ(one.Matrix(), Minimize(objective, SE3d(), options).T_target_source().Matrix());
-}
-
-TEST(RandomStarts, StayWithinTheirLimitsAndRepeat) {
-  RandomStartOptions options;
-  options.count = 500;
-  const std::vector<SE3d> starts = RandomStarts(kMotion, options);
-  ASSERT_EQ(starts.size(), 500U);
-  double longest = 0, largest = 0;
-  for (const SE3d& start : starts) {
-    longest = std::max(longest, DistanceM(kMotion, start));
-    largest = std::max(largest, AngleRad(kMotion, start));
-  }
-  EXPECT_LE(longest, options.translation_m * 1.001);
-  EXPECT_GE(longest, options.translation_m * 0.97);
-  EXPECT_LE(largest, options.rotation_rad * 1.001);
-  EXPECT_EQ(starts[7].Matrix(), RandomStarts(kMotion, options)[7].Matrix());
-  options.seed = 2;
-  EXPECT_NE(starts[7].Matrix(), RandomStarts(kMotion, options)[7].Matrix());
-}
-
-TEST(RandomStarts, StayWithinTheFreeDirections) {
-  RandomStartOptions options;
-  options.minimizer.free = kPlanarDof;
-  const SE3d reference = kMotion;
-  for (const SE3d& start : RandomStarts(reference, options)) {
-    const Vec6 xi = (reference.Inverse() * start).Log();
-    EXPECT_NEAR(xi.head<2>().norm() + std::abs(xi[5]), 0, 1e-12);
-    EXPECT_GT(xi.segment<3>(2).norm(), 0);
-  }
-}
-
-TEST(RandomStarts, CountFailures) {
-  const ClosestPointMatcher matcher(Room().source, Room().target);
-  const Objective objective("point_to_plane", matcher);
-  RandomStartOptions options;
-  options.count = 4;
-  options.minimizer.max_iterations = 1;  // Too few to arrive from metres away.
-  options.translation_m = 5;
-  for (const StartResult& result : RunRandomStarts(objective, kMotion, options)) {
-    EXPECT_EQ(result.success, result.end_m < kSuccessM && result.end_rad < kSuccessRad);
-    if (result.start_m > 2) {
-      EXPECT_FALSE(result.success);
-    }
-  }
-}
-
-TEST(RandomStarts, SucceedInARoom) {
-  const ClosestPointMatcher matcher(Room().source, Room().target);
-  const Objective objective("point_to_plane", matcher);
-  RandomStartOptions options;
-  options.count = 20;
-  options.minimizer.threads = 2;
-  const std::vector<StartResult> results = RunRandomStarts(objective, kMotion, options);
-  ASSERT_EQ(results.size(), 20U);
-  for (const StartResult& result : results) {
-    EXPECT_TRUE(result.success);
-    EXPECT_GT(result.start_m, 0);
-    EXPECT_LT(result.end_m, kSuccessM);
-  }
-}
-
-TEST(GroundTruthCheck, TellsGoodTruthFromBad) {
-  ICPSCAPE_SKIP_WITHOUT_KITTI();
-  const std::filesystem::path root = KittiRoot();
-  const KittiSequence sequence(root, "00");
-  const auto check = [&](int frame) {
-    DroppedPoints dropped;
-    const PointCloud source = ReadVelodyne(sequence.ScanPath(frame), &dropped);
-    PointCloud target = ReadVelodyne(sequence.ScanPath(frame - 1), &dropped);
-    EstimateNormals({}, 2, &target);
-    return CheckGroundTruth(source, target, sequence.RelativeMotion(frame - 1, frame), 2)
-        .translation_m;
-  };
-  EXPECT_LT(check(95), 0.02);
-  EXPECT_GT(check(1), 0.1);
 }
 
 TEST(Minimizer, RegistersTheRealTurnFromTheIdentity) {
