@@ -3,13 +3,13 @@
 #define ICPSCAPE_SRC_OBJECTIVE_OBJECTIVE_SET_H_
 
 #include <memory>
-#include <optional>
 #include <string>
 #include <vector>
 
 #include "src/cloud/features.h"
 #include "src/matching/closest_point_matcher.h"
 #include "src/matching/local_fit_matcher.h"
+#include "src/matching/metric_clouds.h"
 #include "src/objective/objective.h"
 
 namespace icpscape {
@@ -24,14 +24,6 @@ struct ObjectiveSetOptions {
   LocalFitOptions patch;     ///< Planar metrics.
   std::shared_ptr<const ceres::LossFunction> loss;
   int threads = 1;  ///< To build the searches; results do not depend on it.
-};
-
-/// The clouds that metrics of each kind work on: of a source those whose points are matched, of a
-/// target those that are searched. Only what the metrics need must be there.
-struct MetricClouds {
-  std::optional<SearchableCloud> points;  ///< Closest-point metrics.
-  std::optional<SearchableCloud> edges;   ///< Edge metrics.
-  std::optional<SearchableCloud> planar;  ///< Planar metrics.
 };
 
 /// The objectives of several metrics over one pair of scans, with the matchers that they need:
