@@ -194,7 +194,7 @@ void CovarianceReport::AddPair(const Objective& objective, const SE3d& T_initial
   MinimizerOptions minimizer = PreciseMinimizer();
   minimizer.threads = threads;
   const MinimizerSummary summary = Minimize(objective, T_initial, minimizer);
-  const std::string& metric = objective.metric();
+  const std::string& metric = objective.metric().name;
   if (!summary.Usable()) {
     throw ComputationError(metric + ": " + summary.message);
   }

@@ -51,7 +51,7 @@ void Sweep(const ScanPair& pair, const std::vector<std::string>& metrics, const 
     std::vector<double> found;
     for (const Objective& objective : set.objectives()) {
       found.push_back(ArgminError(objective, axis, FLAGS_samples, threads));
-      table->AddRow({axis.name, axis.unit, objective.metric(), error, Number(found.back()),
+      table->AddRow({axis.name, axis.unit, objective.metric().name, error, Number(found.back()),
                      std::to_string(scans.source.size())});
     }
     return found;

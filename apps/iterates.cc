@@ -39,8 +39,8 @@ std::vector<MetricIterates> MinimizeEach(const std::vector<Objective>& objective
                                          const SE3d& T_initial, const MinimizerOptions& options) {
   std::vector<MetricIterates> all;
   for (const Objective& objective : objectives) {
-    all.push_back(
-        {objective.metric(), Minimize(JointObjective({{&objective, 1.0}}), T_initial, options)});
+    all.push_back({objective.metric().name,
+                   Minimize(JointObjective({{&objective, 1.0}}), T_initial, options)});
   }
   return all;
 }

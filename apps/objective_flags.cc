@@ -108,7 +108,7 @@ std::vector<std::string> MetricsFromFlags() {
   RequireFlag(!metrics.empty() && Join(metrics, ",") == FLAGS_metrics, "metrics", FLAGS_metrics,
               "at least one metric, separated by single commas");
   for (std::size_t i = 0; i < metrics.size(); ++i) {
-    MetricFunctionsOf(metrics[i]);  // Throws for an unknown one.
+    MetricNamed(metrics[i]);  // Throws for an unknown one.
     for (std::size_t j = 0; j < i; ++j) {
       RequireFlag(metrics[i] != metrics[j], "metrics", FLAGS_metrics, "each metric once");
     }

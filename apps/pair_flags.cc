@@ -242,7 +242,7 @@ ScanPair LoadPair(const std::vector<std::string>& metrics, Manifest* manifest) {
   }
   bool features = false;
   for (const std::string& metric : metrics) {
-    needs |= MetricFunctionsOf(metric).needs;
+    needs |= MetricNamed(metric).needs;
     features |= NeedsFeatures(metric);
   }
   if ((needs & kSourceNormal) != 0) {

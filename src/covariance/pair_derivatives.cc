@@ -5,7 +5,6 @@
 #include <ceres/loss_function.h>
 
 #include "residuals/registry.h"
-#include "src/objective/metric_functions.h"
 
 namespace icpscape {
 namespace {
@@ -86,13 +85,17 @@ PairDerivatives Differentiate(const Correspondence& pair, const SE3d& T,
   return out;
 }
 
+// By the metrics' places.
+template <class... Metrics>
+PairDerivativesFunction FunctionAt(std::size_t place, MetricList<Metrics...>) {
+  constexpr PairDerivativesFunction kFunctions[] = {&Differentiate<Metrics>...};
+  return kFunctions[place];
+}
+
 }  // namespace
 
-PairDerivativesFunction PairDerivativesOf(const std::string& metric) {
-  MetricFunctionsOf(metric);  // Throws for an unknown one.
-  PairDerivativesFunction function = nullptr;
-  WithMetric(metric, [&](auto tag) { function = &Differentiate<typename decltype(tag)::Metric>; });
-  return function;
+PairDerivativesFunction PairDerivativesOf(const RegisteredMetric& metric) {
+  return FunctionAt(metric.place, AllMetrics{});
 }
 
 }  // namespace icpscape

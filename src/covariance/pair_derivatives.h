@@ -2,9 +2,8 @@
 #ifndef ICPSCAPE_SRC_COVARIANCE_PAIR_DERIVATIVES_H_
 #define ICPSCAPE_SRC_COVARIANCE_PAIR_DERIVATIVES_H_
 
-#include <string>
-
 #include "residuals/correspondence.h"
+#include "src/objective/registered_metric.h"
 
 namespace ceres {
 class LossFunction;
@@ -16,7 +15,7 @@ namespace icpscape {
 ///
 /// Measured are the two ranges: p_source moves along its ray by d_p, and q_target along its own by
 /// d_q (a fitted line or patch moves with its closest point). Sensors are at the origins of their
-/// frames. Normals and directions of fits are constants, as in every closed form.
+/// frames. Normals and directions of fits are constants: how they follow the ranges is left out.
 struct PairDerivatives {
   Vec6 gradient;         ///< d cost / d xi, T <- T Exp(xi).
   Mat6 gauss_newton;     ///< rho' J^T J
@@ -32,8 +31,7 @@ using PairDerivativesFunction = PairDerivatives (*)(const Correspondence& pair,
                                                     const SE3d& T_target_source,
                                                     const ceres::LossFunction* loss);
 
-/// Throws UsageError for a metric that is not registered.
-PairDerivativesFunction PairDerivativesOf(const std::string& metric);
+PairDerivativesFunction PairDerivativesOf(const RegisteredMetric& metric);
 
 }  // namespace icpscape
 

@@ -31,8 +31,8 @@ void SetNumericSlopes(std::vector<CurvePoint>* points) {
 }
 
 // Adds back to eps what the metric's terms already leave out.
-double LeftOut(const std::string& metric, PatchOffset offset, long n) {
-  if (MetricFunctionsOf(metric).epsilon != Epsilon::kSoftNorm || offset == PatchOffset::kPerTerm) {
+double LeftOut(const RegisteredMetric& metric, PatchOffset offset, long n) {
+  if (metric.epsilon != Epsilon::kSoftNorm || offset == PatchOffset::kPerTerm) {
     return 0;
   }
   return static_cast<double>(offset == PatchOffset::kNone ? n : n - 1);
@@ -107,7 +107,7 @@ std::vector<Curve> EvaluateCurves(const std::vector<Objective>& objectives, cons
   options.Check();
   std::vector<Curve> curves(objectives.size());
   for (std::size_t m = 0; m < objectives.size(); ++m) {
-    curves[m].metric = objectives[m].metric();
+    curves[m].metric = objectives[m].metric().name;
     curves[m].points.resize(static_cast<std::size_t>(options.samples));
   }
   if (objectives.empty()) {
@@ -132,7 +132,7 @@ std::vector<Curve> EvaluateCurves(const std::vector<Objective>& objectives, cons
     for (std::size_t m = 0; m < objectives.size(); ++m) {
       Evaluation& evaluation = evaluations[m];
       if (evaluation.n() == 0) {
-        throw ComputationError("no correspondence is left for " + objectives[m].metric() +
+        throw ComputationError("no correspondence is left for " + objectives[m].metric().name +
                                " at u = " + Number(u) + ".");
       }
       evaluation.epsilon += LeftOut(objectives[m].metric(), options.patch_offset, evaluation.n());

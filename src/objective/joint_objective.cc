@@ -13,7 +13,7 @@ namespace icpscape {
 JointObjective::JointObjective(std::vector<Term> terms) : terms_(std::move(terms)) {
   for (const Term& term : terms_) {
     if (!(term.weight > 0)) {
-      throw UsageError("weight " + Number(term.weight) + " of " + term.objective->metric() +
+      throw UsageError("weight " + Number(term.weight) + " of " + term.objective->metric().name +
                        ": expected a positive number.");
     }
     objectives_.push_back(term.objective);
@@ -31,7 +31,7 @@ JointObjective& JointObjective::operator=(JointObjective&&) noexcept = default;
 std::string JointObjective::Name() const {
   std::vector<std::string> names;
   for (const Term& term : terms_) {
-    names.push_back(term.objective->metric());
+    names.push_back(term.objective->metric().name);
   }
   return Join(names, " + ");
 }

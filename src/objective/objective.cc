@@ -37,23 +37,26 @@ void EvaluateTerms(const void* opaque, const double squared[8], BlockTerms::Valu
 
 }  // namespace
 
-Objective::Objective(const std::string& metric, const Matcher& matcher,
+Objective::Objective(const RegisteredMetric& metric, const Matcher& matcher,
                      std::shared_ptr<const ceres::LossFunction> loss)
-    : metric_(metric),
+    : metric_(&metric),
       matcher_(&matcher),
       loss_(std::move(loss)),
-      functions_(&MetricFunctionsOf(metric)),
-      kernel_(BlockKernelOf(functions_->place, ActiveSimdLevel())) {
-  if (loss_ == nullptr && functions_->epsilon == Epsilon::kSoftNorm) {
+      kernel_(BlockKernelOf(metric.place, ActiveSimdLevel())) {
+  if (loss_ == nullptr && metric.epsilon == Epsilon::kSoftNorm) {
     loss_ = std::make_shared<ceres::SoftLOneLoss>(1);
   }
-  CHECK_EQ(functions_->needs & ~matcher.Provides(), 0U)
-      << metric << " needs more than its matcher provides";
-  CHECK((functions_->needs & kSourceNormal) == 0 || matcher.source().has_normals())
-      << metric << " needs normals in the source cloud";
-  CHECK((functions_->needs & kTargetNormal) == 0 || matcher.target().has_normals())
-      << metric << " needs normals in the target cloud";
+  CHECK_EQ(metric.needs & ~matcher.Provides(), 0U)
+      << metric.name << " needs more than its matcher provides";
+  CHECK((metric.needs & kSourceNormal) == 0 || matcher.source().has_normals())
+      << metric.name << " needs normals in the source cloud";
+  CHECK((metric.needs & kTargetNormal) == 0 || matcher.target().has_normals())
+      << metric.name << " needs normals in the target cloud";
 }
+
+Objective::Objective(const std::string& metric, const Matcher& matcher,
+                     std::shared_ptr<const ceres::LossFunction> loss)
+    : Objective(MetricNamed(metric), matcher, std::move(loss)) {}
 
 Matches Objective::Match(const SE3d& T_target_source, int threads) const {
   Matches matches;
@@ -73,13 +76,13 @@ Evaluation Objective::Evaluate(const SE3d& T_target_source, int threads) const {
 
 void Objective::Add(const PairBlock& block, const SE3d& T, Derivatives derivatives,
                     Evaluation* sums) const {
-  const TermsContext context = {loss_.get(), functions_->epsilon};
+  const TermsContext context = {loss_.get(), metric_->epsilon};
   const BlockTerms terms = {&EvaluateTerms, &context};
-  const bool plain = loss_ == nullptr && functions_->epsilon == Epsilon::kSquared;
+  const bool plain = loss_ == nullptr && metric_->epsilon == Epsilon::kSquared;
   const Eigen::Matrix<double, 3, 3, Eigen::RowMajor> R = T.R();
   BlockSums block_sums = {};
-  BlockKernelOf(functions_->place, ActiveSimdLevel())(
-      block.values(), R.data(), T.t().data(), derivatives, plain ? nullptr : &terms, &block_sums);
+  kernel_(block.values(), R.data(), T.t().data(), derivatives, plain ? nullptr : &terms,
+          &block_sums);
   sums->Add(block_sums);
 }
 
@@ -93,7 +96,7 @@ void Objective::AddResidualBlocks(const Matches& matches, const ceres::LossFunct
     block.Fill(*matcher_, matches, k, k + 1, needs(),
                [&](std::size_t) { return static_cast<std::size_t>(order[k]); });
     if (const std::optional<Correspondence> pair = block.Pair(0, needs())) {
-      problem->AddResidualBlock(functions_->make_cost(*pair), shared_loss, x);
+      problem->AddResidualBlock(metric_->make_cost(*pair), shared_loss, x);
     }
   }
 }

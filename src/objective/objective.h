@@ -7,8 +7,8 @@
 
 #include "src/matching/matcher.h"
 #include "src/objective/evaluation.h"
-#include "src/objective/metric_functions.h"
 #include "src/objective/pair_block.h"
+#include "src/objective/registered_metric.h"
 
 namespace ceres {
 class LossFunction;
@@ -25,16 +25,19 @@ namespace icpscape {
 /// for any number of threads, and safe from several threads at once.
 class Objective {
  public:
-  /// Throws UsageError for an unknown metric (the message lists the known ones). The matcher must
-  /// provide what the metric needs, and the clouds the normals (CHECKed). Without a loss, a metric
-  /// whose printed form is one (planar_to_patch: SoftLOneLoss(1)) keeps that.
+  /// The matcher must provide what the metric needs, and the clouds the normals (CHECKed). Without
+  /// a loss, a metric whose printed form is one (planar_to_patch: SoftLOneLoss(1)) keeps that. Runs
+  /// at the SIMD level that is active now.
+  Objective(const RegisteredMetric& metric, const Matcher& matcher,
+            std::shared_ptr<const ceres::LossFunction> loss = nullptr);
+  /// By name. Throws UsageError for an unknown metric (the message lists the known ones).
   Objective(const std::string& metric, const Matcher& matcher,
             std::shared_ptr<const ceres::LossFunction> loss = nullptr);
 
-  const std::string& metric() const { return metric_; }
+  const RegisteredMetric& metric() const { return *metric_; }
   const Matcher& matcher() const { return *matcher_; }
   /// What the metric needs of a pair.
-  unsigned needs() const { return functions_->needs; }
+  unsigned needs() const { return metric_->needs; }
 
   Matches Match(const SE3d& T_target_source, int threads) const;
 
@@ -62,10 +65,9 @@ class Objective {
   const ceres::LossFunction* loss() const { return loss_.get(); }
 
  private:
-  std::string metric_;
+  const RegisteredMetric* metric_;
   const Matcher* matcher_;
   std::shared_ptr<const ceres::LossFunction> loss_;
-  const MetricFunctions* functions_;
   BlockKernel kernel_;
 };
 

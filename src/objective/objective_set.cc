@@ -9,10 +9,10 @@ namespace icpscape {
 namespace {
 
 bool NeedsLine(const std::string& metric) {
-  return (MetricFunctionsOf(metric).needs & kTargetLine) != 0;
+  return (MetricNamed(metric).needs & kTargetLine) != 0;
 }
 bool NeedsPatch(const std::string& metric) {
-  return (MetricFunctionsOf(metric).needs & kTargetPatch) != 0;
+  return (MetricNamed(metric).needs & kTargetPatch) != 0;
 }
 
 }  // namespace

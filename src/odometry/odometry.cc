@@ -17,7 +17,7 @@ unsigned NeedsOf(const OdometryOptions& options) {
                        ? static_cast<unsigned>(kSourceNormal | kTargetNormal)
                        : 0U;
   for (const std::string& metric : options.metrics) {
-    needs |= MetricFunctionsOf(metric).needs;
+    needs |= MetricNamed(metric).needs;
   }
   return needs;
 }

@@ -48,7 +48,7 @@ double ArgminError(const Objective& objective, const ErrorAxis& axis, int sample
   ParallelFor(rmse.size(), threads,
               [&](std::size_t i) { rmse[i] = objective.Evaluate(axis.pose(error(i)), 1).Rmse(); });
   if (std::any_of(rmse.begin(), rmse.end(), [](double value) { return std::isnan(value); })) {
-    throw ComputationError("no correspondence is left for " + objective.metric() +
+    throw ComputationError("no correspondence is left for " + objective.metric().name +
                            " at some of the poses.");
   }
   const auto least =

@@ -80,7 +80,7 @@ std::map<std::string, PaperCurve> EvaluatePaperCurves(const PaperPair& pair,
     done_before += options.samples;
     for (std::size_t i = 0; i < drawn.size(); ++i) {
       const Objective& objective = set.objectives()[i];
-      PaperCurve& entry = result[file_of_metric.at(objective.metric())];
+      PaperCurve& entry = result[file_of_metric.at(objective.metric().name)];
       entry.curve = std::move(drawn[i]);
       entry.pulls = Pulls(objective, path.Pose(0), path.Pose(1), options.threads);
     }

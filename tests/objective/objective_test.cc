@@ -6,6 +6,8 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <cstdlib>
+
 #include "residuals/adapters/ceres.h"
 #include "residuals/registry.h"
 #include "src/cloud/normals.h"
@@ -241,6 +243,27 @@ TEST(Objective, UnknownMetricNamesTheKnownOnes) {
     EXPECT_THAT(error.what(), HasSubstr("point_to_pint"));
     EXPECT_THAT(error.what(), HasSubstr("point_to_plane, symmetric"));
   }
+}
+
+TEST(Objective, HoldsTheOneEntryOfItsMetric) {
+  const ClosestPointMatcher matcher(Room().source, Room().target);
+  const Objective objective("symmetric", matcher);
+  EXPECT_EQ(&objective.metric(), &MetricNamed("symmetric"));
+  EXPECT_EQ(objective.metric().name, "symmetric");
+  EXPECT_EQ(objective.metric().needs, kSourceNormal | kTargetNormal);
+  EXPECT_NE(&objective.metric(), &MetricNamed("symmetric_split"));
+}
+
+// The environment is asked when an objective is made, not for every block of pairs.
+TEST(Objective, RunsAtTheSimdLevelThatItWasMadeAt) {
+  const ClosestPointMatcher matcher(Room().source, Room().target);
+  const Objective objective("point_to_plane", matcher);
+  const Matches matches = objective.Match(SE3d(), 1);
+  const double cost = objective.Evaluate(SE3d(), matches, 1).sums.cost;
+  setenv("ICPSCAPE_SIMD", "of another machine", 1);
+  EXPECT_THROW(Objective("point_to_plane", matcher), UsageError);
+  EXPECT_EQ(objective.Evaluate(SE3d(), matches, 1).sums.cost, cost);
+  unsetenv("ICPSCAPE_SIMD");
 }
 
 TEST(Loss, UnknownNamesAndScalesAreRefused) {

@@ -14,7 +14,7 @@ namespace icpscape::testing_support {
 /// A matcher that provides what the metric needs, over all points of the source.
 inline std::unique_ptr<Matcher> MatcherFor(const std::string& metric, const PointCloud& source,
                                            const PointCloud& target) {
-  const unsigned needs = MetricFunctionsOf(metric).needs;
+  const unsigned needs = MetricNamed(metric).needs;
   LocalFitOptions lenient;  // A synthetic room has few edges as sharp as the paper's rules want.
   lenient.eigenvalue_ratio = 1.5;
   lenient.max_smallest_eigenvalue_m2 = 1;
