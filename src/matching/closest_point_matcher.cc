@@ -13,8 +13,8 @@ ClosestPointMatcher::ClosestPointMatcher(SearchableCloud source, SearchableCloud
                                          const MatchingOptions& options)
     : Matcher(std::move(source), std::move(target)), options_(options) {}
 
-void ClosestPointMatcher::MatchPart(const SE3d& T, std::size_t begin, std::size_t end,
-                                    Matches* matches) const {
+void ClosestPointMatcher::FindPart(const SE3d& T, std::size_t begin, std::size_t end,
+                                   Matches* matches) const {
   const float gate = options_.max_distance_m > 0
                          ? static_cast<float>(options_.max_distance_m * options_.max_distance_m)
                          : std::numeric_limits<float>::max();

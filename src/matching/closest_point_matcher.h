@@ -41,12 +41,12 @@ class ClosestPointMatcher final : public Matcher {
                       const MatchingOptions& options = {});
 
   unsigned Provides() const override { return kSourceNormal | kTargetNormal; }
-  void MatchPart(const SE3d& T_target_source, std::size_t begin, std::size_t end,
-                 Matches* matches) const override;
   bool Rejects() const override;
   void Reject(const SE3d& T_target_source, int threads, Matches* matches) const override;
 
  private:
+  void FindPart(const SE3d& T_target_source, std::size_t begin, std::size_t end,
+                Matches* matches) const override;
   MatchingOptions options_;
 };
 

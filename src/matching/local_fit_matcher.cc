@@ -63,8 +63,8 @@ bool LocalFitMatcher::Accepts(const Neighborhoods& neighborhoods, const Principa
                                       smallest < options_.max_smallest_eigenvalue_m2;
 }
 
-void LocalFitMatcher::MatchPart(const SE3d& T, std::size_t begin, std::size_t end,
-                                Matches* matches) const {
+void LocalFitMatcher::FindPart(const SE3d& T, std::size_t begin, std::size_t end,
+                               Matches* matches) const {
   thread_local MovedPoints moved;
   thread_local Neighborhoods neighborhoods;
   thread_local PrincipalAxes axes;

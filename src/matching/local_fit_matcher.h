@@ -49,10 +49,10 @@ class LocalFitMatcher final : public Matcher {
 
   unsigned Provides() const override { return shape_ == Shape::kLine ? kTargetLine : kTargetPatch; }
   double area_patch() const override { return options_.triangle_leg_m * options_.triangle_leg_m; }
-  void MatchPart(const SE3d& T_target_source, std::size_t begin, std::size_t end,
-                 Matches* matches) const override;
 
  private:
+  void FindPart(const SE3d& T_target_source, std::size_t begin, std::size_t end,
+                Matches* matches) const override;
   bool Accepts(const Neighborhoods& neighborhoods, const PrincipalAxes& axes, std::size_t i) const;
 
   Shape shape_;

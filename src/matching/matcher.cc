@@ -12,7 +12,14 @@ std::size_t Matches::Count() const {
       std::count_if(target_index.begin(), target_index.end(), [](int j) { return j >= 0; }));
 }
 
-void Matcher::Clear(Matches* matches) const {
+void Matcher::MatchPart(const SE3d& T_target_source, std::size_t begin, std::size_t end,
+                        Matches* matches) const {
+  matches->T_target_source = T_target_source;
+  FindPart(T_target_source, begin, end, matches);
+}
+
+void Matcher::Clear(const SE3d& T_target_source, Matches* matches) const {
+  matches->T_target_source = T_target_source;
   const bool fits = (Provides() & (kTargetLine | kTargetPatch)) != 0;
   matches->target_index.assign(source().size(), -1);
   matches->fits.resize(fits ? source().size() : 0);
@@ -30,7 +37,7 @@ void Matcher::Keep(const Matches& part, std::size_t begin, std::size_t end,
 }
 
 void Matcher::Match(const SE3d& T_target_source, int threads, Matches* matches) const {
-  Clear(matches);
+  Clear(T_target_source, matches);
   ForEachPart(Order().size(), threads, [&](std::size_t begin, std::size_t end) {
     thread_local Matches part;
     MatchPart(T_target_source, begin, end, &part);

@@ -23,6 +23,8 @@ struct Matches {
   std::vector<std::int32_t> target_index;
   /// Of matchers that fit: valid where target_index >= 0. Empty otherwise.
   std::vector<LocalFit> fits = {};
+  /// The pose at which they were found: for what is frozen with the matches, such as weights.
+  SE3d T_target_source = {};
 
   std::size_t Count() const;
 };
@@ -60,11 +62,12 @@ class Matcher {
 
   /// Matches the source points Order()[begin] to Order()[end - 1]; the entries of `matches` are
   /// theirs, in that order. Allocates only where there are more than ever before.
-  virtual void MatchPart(const SE3d& T_target_source, std::size_t begin, std::size_t end,
-                         Matches* matches) const = 0;
+  void MatchPart(const SE3d& T_target_source, std::size_t begin, std::size_t end,
+                 Matches* matches) const;
 
-  /// Makes room for all source points, without a match yet, and takes over those of one part.
-  void Clear(Matches* matches) const;
+  /// Makes room for all source points at the pose, without a match yet, and takes over those of one
+  /// part.
+  void Clear(const SE3d& T_target_source, Matches* matches) const;
   void Keep(const Matches& part, std::size_t begin, std::size_t end, Matches* matches) const;
 
   /// Whether Reject has to see all parts before any is of use.
@@ -73,6 +76,10 @@ class Matcher {
                       Matches* /*matches*/) const {}
 
  private:
+  /// What MatchPart says, but for the pose: target indices, and fits where the matcher makes them.
+  virtual void FindPart(const SE3d& T_target_source, std::size_t begin, std::size_t end,
+                        Matches* matches) const = 0;
+
   SearchableCloud source_;
   SearchableCloud target_;
 };

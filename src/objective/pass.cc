@@ -88,7 +88,7 @@ class GroupPass {
       return Frozen(*matches, threads);
     }
     if (keep != nullptr) {
-      matcher_.Clear(keep);
+      matcher_.Clear(T_, keep);
     }
     return SumParts(threads, [&](std::size_t begin, std::size_t end, Evaluation* sums) {
       thread_local Matches part;

@@ -189,6 +189,12 @@ TEST(Pass, KeptMatchesAreThoseOfThePose) {
   EXPECT_EQ(kept.size(), 4U);
   for (const auto& [matcher, matches] : kept) {
     EXPECT_EQ(matches.target_index, matched.at(matcher).target_index);
+    // With the pose, whether rejections made the matcher see all pairs first or not.
+    EXPECT_EQ(matches.T_target_source.Matrix(), kPose.Matrix());
+    EXPECT_EQ(matched.at(matcher).T_target_source.Matrix(), kPose.Matrix());
+    Matches part;
+    matcher->MatchPart(kMotion, 0, 10, &part);
+    EXPECT_EQ(part.T_target_source.Matrix(), kMotion.Matrix());
   }
   for (std::size_t m = 0; m < all.pointers.size(); ++m) {
     ExpectSameBits(associated[m], frozen[m]);
