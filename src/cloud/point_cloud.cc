@@ -23,10 +23,12 @@ constexpr float kLargestCoordinateM = 1e6F;
 
 PointCloud PointCloud::Select(const std::vector<char>& keep) const {
   PointCloud out;
-  for (const auto array : {&PointCloud::x, &PointCloud::y, &PointCloud::z, &PointCloud::intensity,
-                           &PointCloud::nx, &PointCloud::ny, &PointCloud::nz}) {
-    SelectArray(this->*array, keep, &(out.*array));
-  }
+  ForEachKind([&](auto kind) {
+    for (const Array array : ArraysOf(kind)) {
+      SelectArray(this->*array, keep, &(out.*array));
+    }
+  });
+  SelectArray(intensity, keep, &out.intensity);
   SelectArray(ring, keep, &out.ring);
   SelectArray(label, keep, &out.label);
   return out;
@@ -34,14 +36,17 @@ PointCloud PointCloud::Select(const std::vector<char>& keep) const {
 
 PointCloud PointCloud::Transformed(const SE3d& T_other_this) const {
   PointCloud out = *this;
-  for (std::size_t i = 0; i < size(); ++i) {
-    const Eigen::Vector3f p = (T_other_this * Point(i)).cast<float>();
-    out.x[i] = p.x(), out.y[i] = p.y(), out.z[i] = p.z();
-  }
-  for (std::size_t i = 0; i < nx.size(); ++i) {
-    const Eigen::Vector3f n = (T_other_this.R() * Normal(i)).cast<float>();
-    out.nx[i] = n.x(), out.ny[i] = n.y(), out.nz[i] = n.z();
-  }
+  ForEachKind([&](auto kind) {
+    using Kind = decltype(kind);
+    const auto arrays = ArraysOf(kind);
+    for (std::size_t i = 0; i < (this->*arrays[0]).size(); ++i) {
+      const auto value =
+          Kind::template InFrame<double>(T_other_this, Get(kind, i).template cast<double>());
+      for (std::size_t k = 0; k < Kind::kSize; ++k) {
+        (out.*arrays[k])[i] = static_cast<float>(Kind::template NumberOf<double>(value, k));
+      }
+    }
+  });
   return out;
 }
 

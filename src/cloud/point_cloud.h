@@ -3,11 +3,13 @@
 #define ICPSCAPE_SRC_CLOUD_POINT_CLOUD_H_
 
 #include <Eigen/Core>
+#include <array>
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
 #include <vector>
 
+#include "residuals/kinds.h"
 #include "residuals/lie.h"
 #include "src/neighbors/points_view.h"
 
@@ -26,13 +28,11 @@ struct PointCloud {
 
   std::size_t size() const { return x.size(); }
   bool empty() const { return x.empty(); }
-  bool has_normals() const { return nx.size() == x.size(); }
+  bool has_normals() const { return Carries(kind::Direction()); }
 
   Vec3 Point(std::size_t i) const { return {x[i], y[i], z[i]}; }
   Vec3 Normal(std::size_t i) const { return {nx[i], ny[i], nz[i]}; }
-  bool NormalIsValid(std::size_t i) const {
-    return (nx[i] != 0 || ny[i] != 0 || nz[i] != 0) && std::isfinite(nx[i] + ny[i] + nz[i]);
-  }
+  bool NormalIsValid(std::size_t i) const { return IsValid(kind::Direction(), i); }
   PointsView View() const { return {x.data(), y.data(), z.data(), x.size()}; }
 
   /// Keeps the points i with keep[i] != 0, in order, in every array. keep has size() entries.
@@ -40,6 +40,36 @@ struct PointCloud {
 
   /// The cloud seen from another frame: points moved, normals turned.
   PointCloud Transformed(const SE3d& T_other_this) const;
+
+  // What metrics can take of a point, by its kind: the numbers of each kind are arrays.
+
+  using Array = std::vector<float> PointCloud::*;
+  static constexpr std::array<Array, 3> ArraysOf(kind::Point) {
+    return {&PointCloud::x, &PointCloud::y, &PointCloud::z};
+  }
+  static constexpr std::array<Array, 3> ArraysOf(kind::Direction) {
+    return {&PointCloud::nx, &PointCloud::ny, &PointCloud::nz};
+  }
+  template <class F>
+  static void ForEachKind(F&& f) {
+    f(kind::Point());
+    f(kind::Direction());
+  }
+
+  template <class Kind>
+  bool Carries(Kind kind) const {
+    return (this->*ArraysOf(kind)[0]).size() == size();
+  }
+  template <class Kind>
+  typename Kind::template Value<float> Get(Kind kind, std::size_t i) const {
+    return Kind::template Make<float>([&](std::size_t k) { return (this->*ArraysOf(kind)[k])[i]; });
+  }
+  /// Whether the point has it: it is finite, and not 0.
+  template <class Kind>
+  bool IsValid(Kind kind, std::size_t i) const {
+    const auto value = Get(kind, i);
+    return !Kind::template Mark<float>(value).isZero(0) && value.allFinite();
+  }
 };
 
 /// What a reader left out, and why.

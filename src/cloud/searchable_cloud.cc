@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "src/cloud/searchable_cloud.h"
 
+#include <type_traits>
 #include <utility>
 
 namespace icpscape {
@@ -16,17 +17,22 @@ SearchableCloud::SearchableCloud(const PointCloud& cloud, NeighborSearch search)
   for (std::size_t place = 0; place < order.size(); ++place) {
     shared->place[static_cast<std::size_t>(order[place])] = static_cast<std::int32_t>(place);
   }
-  for (std::vector<float>* normals : {&shared->nx, &shared->ny, &shared->nz}) {
-    normals->resize(order.size() + kPadding);
-  }
-  for (std::size_t place = 0; place < order.size() && cloud.has_normals(); ++place) {
-    const auto i = static_cast<std::size_t>(order[place]);
-    if (cloud.NormalIsValid(i)) {
-      shared->nx[place] = cloud.nx[i];
-      shared->ny[place] = cloud.ny[i];
-      shared->nz[place] = cloud.nz[i];
+  PointCloud::ForEachKind([&](auto kind) {
+    if constexpr (!std::is_same_v<decltype(kind), kind::Point>) {
+      const auto arrays = PointCloud::ArraysOf(kind);
+      for (const PointCloud::Array array : arrays) {
+        (shared->ordered.*array).resize(order.size() + kPadding);
+      }
+      for (std::size_t place = 0; place < order.size() && cloud.Carries(kind); ++place) {
+        const auto i = static_cast<std::size_t>(order[place]);
+        if (cloud.IsValid(kind, i)) {
+          for (const PointCloud::Array array : arrays) {
+            (shared->ordered.*array)[place] = (cloud.*array)[i];
+          }
+        }
+      }
     }
-  }
+  });
   shared_ = std::move(shared);
 }
 

@@ -2,6 +2,7 @@
 #ifndef ICPSCAPE_SRC_CLOUD_SEARCHABLE_CLOUD_H_
 #define ICPSCAPE_SRC_CLOUD_SEARCHABLE_CLOUD_H_
 
+#include <array>
 #include <memory>
 #include <vector>
 
@@ -24,11 +25,23 @@ class SearchableCloud {
 
   const PointCloud& cloud() const { return *cloud_; }
   const NeighborSearch& search() const { return search_; }
-  /// The points and their normals in the order of search().Order(), padded: what is near in space
-  /// is near in the memory. A point without a normal has (0, 0, 0).
   PointsView points() const { return search_.OrderedPoints(); }
+  /// The numbers of what the points carry of a kind, in the order of search().Order(), padded: what
+  /// is near in space is near in the memory. They are 0 for a point that has none.
+  std::array<const float*, 3> Numbers(kind::Point) const {
+    return {points().x, points().y, points().z};
+  }
+  template <class Kind>
+  std::array<const float*, Kind::kSize> Numbers(Kind kind) const {
+    std::array<const float*, Kind::kSize> numbers;
+    for (std::size_t k = 0; k < Kind::kSize; ++k) {
+      numbers[k] = (shared_->ordered.*PointCloud::ArraysOf(kind)[k]).data();
+    }
+    return numbers;
+  }
   PointsView normals() const {
-    return {shared_->nx.data(), shared_->ny.data(), shared_->nz.data(), points().size};
+    const auto numbers = Numbers(kind::Direction());
+    return {numbers[0], numbers[1], numbers[2], points().size};
   }
   /// Where in that order the point of an index is; -1 for one that is not finite.
   std::int32_t Place(std::size_t index) const { return shared_->place[index]; }
@@ -37,7 +50,7 @@ class SearchableCloud {
   const PointCloud* cloud_;
   NeighborSearch search_;
   struct Shared {
-    std::vector<float> nx, ny, nz;
+    PointCloud ordered;  // Without the points, which the search has.
     std::vector<std::int32_t> place;
   };
   std::shared_ptr<const Shared> shared_;
