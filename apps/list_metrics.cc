@@ -15,13 +15,8 @@ DEFINE_bool(markdown, false, "Print the tables as Markdown, as in docs/metrics.m
 namespace icpscape {
 namespace {
 
-std::string NeedsText(unsigned needs) {
-  std::string text = "points";
-  text += (needs & kSourceNormal) != 0 ? ", source normals" : "";
-  text += (needs & kTargetNormal) != 0 ? ", target normals" : "";
-  text += (needs & kTargetLine) != 0 ? ", line through neighbours" : "";
-  text += (needs & kTargetPatch) != 0 ? ", patch through neighbours" : "";
-  return text;
+std::string NeedsColumn(unsigned needs) {
+  return needs == kPointsOnly ? "points" : "points, " + NeedsText(needs);
 }
 
 // What the paper's eps sums, with r the residual.
@@ -106,7 +101,7 @@ void ListMetrics() {
   ForEachMetric([&](auto tag) {
     using Metric = typename decltype(tag)::Metric;
     metrics.push_back({Metric::kName, std::to_string(Metric::kDim), FormulaText(Metric::kFormula),
-                       FormulaText(EpsilonText(Metric::kEpsilon)), NeedsText(Metric::kNeeds),
+                       FormulaText(EpsilonText(Metric::kEpsilon)), NeedsColumn(Metric::kNeeds),
                        Metric::kSource});
   });
   PrintTable(metrics);

@@ -4,6 +4,8 @@
 #include <ceres/jet.h>
 #include <ceres/loss_function.h>
 
+#include <type_traits>
+
 #include "residuals/registry.h"
 
 namespace icpscape {
@@ -22,28 +24,23 @@ struct OverJets<Metric<Scalar>> {
   using Type = Metric<Jet>;
 };
 
-Vec<Jet, 3> AlongRay(const Vec3& point, const Vec3& ray, int range) {
-  Vec<Jet, 3> moved = point.cast<Jet>();
-  for (int axis = 0; axis < 3; ++axis) {
-    moved[axis].v[range] = ray[axis];
-  }
-  return moved;
-}
-
-CorrespondenceOf<Jet> WithRanges(const Correspondence& c) {
-  const Vec3 source_ray = c.p_source.normalized();
-  const Vec3 target_ray = c.q_target.normalized();
-  CorrespondenceOf<Jet> jets;
-  jets.p_source = AlongRay(c.p_source, source_ray, kSourceRange);
-  jets.q_target = AlongRay(c.q_target, target_ray, kTargetRange);
-  jets.a_line = AlongRay(c.a_line, target_ray, kTargetRange);
-  jets.q_patch = AlongRay(c.q_patch, target_ray, kTargetRange);
-  jets.n_source = c.n_source.cast<Jet>();
-  jets.n_target = c.n_target.cast<Jet>();
-  jets.d_line = c.d_line.cast<Jet>();
-  jets.n_patch = c.n_patch.cast<Jet>();
-  jets.area_patch = Jet(c.area_patch);
-  return jets;
+// Points move along the ray of their side as its range grows; all else is constant.
+CorrespondenceOf<Jet> WithRanges(const Correspondence& pair, unsigned needs) {
+  const Vec3 source_ray = pair.p_source.normalized();
+  const Vec3 target_ray = pair.q_target.normalized();
+  return MapQuantities<Jet>(pair, needs, [&](auto row, const auto& value) {
+    using Row = decltype(row);
+    using Kind = typename Row::Kind;
+    return Kind::template Make<Jet>([&](std::size_t k) {
+      Jet number(Kind::template NumberOf<double>(value, k));
+      if constexpr (std::is_same_v<Kind, kind::Point>) {
+        const auto axis = static_cast<Eigen::Index>(k);
+        number.v[Row::kInSourceFrame ? kSourceRange : kTargetRange] =
+            Row::kInSourceFrame ? source_ray[axis] : target_ray[axis];
+      }
+      return number;
+    });
+  });
 }
 
 template <class Metric>
@@ -54,7 +51,7 @@ PairDerivatives Differentiate(const Correspondence& pair, const SE3d& T,
     xi[i] = Jet(0.0, i);
   }
   const SE3<Jet> T_moved = T.cast<Jet>() * SE3<Jet>::Exp(xi);
-  const auto metric = OverJets<Metric>::Type::From(WithRanges(pair));
+  const auto metric = OverJets<Metric>::Type::From(WithRanges(pair, Metric::kNeeds));
   const Vec<Jet, Metric::kDim> r = metric.Residual(T_moved);
   const Mat<Jet, Metric::kDim, 6> J = metric.Jacobian(T_moved);
   const Jet squared = r.squaredNorm();

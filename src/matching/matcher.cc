@@ -20,7 +20,7 @@ void Matcher::MatchPart(const SE3d& T_target_source, std::size_t begin, std::siz
 
 void Matcher::Clear(const SE3d& T_target_source, Matches* matches) const {
   matches->T_target_source = T_target_source;
-  const bool fits = (Provides() & (kTargetLine | kTargetPatch)) != 0;
+  const bool fits = (Provides() & NeedsFrom(Origin::kFit)) != 0;
   matches->target_index.assign(source().size(), -1);
   matches->fits.resize(fits ? source().size() : 0);
 }

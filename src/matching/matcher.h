@@ -15,6 +15,10 @@ namespace icpscape {
 struct LocalFit {
   Vec3 anchor;     ///< A point on it (m).
   Vec3 direction;  ///< Unit direction of the line, or unit normal of the plane.
+
+  /// What there is of a kind.
+  const Vec3& Of(kind::Point) const { return anchor; }
+  const Vec3& Of(kind::Direction) const { return direction; }
 };
 
 /// What a matcher found, one entry per source point.

@@ -4,25 +4,10 @@
 
 #include <cstddef>
 
+#include "src/objective/block_values.h"
 #include "src/simd/level.h"
 
 namespace icpscape {
-
-constexpr std::size_t kBlockPairs = 128;
-
-/// A block of pairs, value by value side by side. Arrays can be read in eights, also behind the
-/// last pair; what is there is finite.
-struct BlockValues {
-  double anchor[3][kBlockPairs];     ///< Of a fitted line or patch.
-  double direction[3][kBlockPairs];  ///< The line's direction or the patch's normal.
-  float q_target[3][kBlockPairs];
-  float n_target[3][kBlockPairs];  ///< 0 0 0 for a point without a normal, as in n_source.
-  float matched[kBlockPairs];      ///< 1 for a pair, 0 for a source point without a match.
-  const float* p_source[3];
-  const float* n_source[3];
-  double area_patch;
-  std::size_t size;
-};
 
 /// What an evaluation computes besides the values.
 enum class Derivatives {

@@ -48,10 +48,15 @@ Objective::Objective(const RegisteredMetric& metric, const Matcher& matcher,
   }
   CHECK_EQ(metric.needs & ~matcher.Provides(), 0U)
       << metric.name << " needs more than its matcher provides";
-  CHECK((metric.needs & kSourceNormal) == 0 || matcher.source().has_normals())
-      << metric.name << " needs normals in the source cloud";
-  CHECK((metric.needs & kTargetNormal) == 0 || matcher.target().has_normals())
-      << metric.name << " needs normals in the target cloud";
+  ForEachQuantity<double>([&](auto row) {
+    using Row = decltype(row);
+    if constexpr (Row::kCanBeMissing) {
+      const PointCloud& cloud = Row::kInSourceFrame ? matcher.source() : matcher.target();
+      CHECK(!Row::IsNeededBy(metric.needs) || cloud.Carries(typename Row::Kind()))
+          << metric.name << " needs " << NeedsText(Row::kNeed) << "; the "
+          << (Row::kInSourceFrame ? "source" : "target") << " cloud has none";
+    }
+  });
 }
 
 Objective::Objective(const std::string& metric, const Matcher& matcher,

@@ -21,8 +21,8 @@ class PairBlock {
   const BlockValues& values() const { return values_; }
 
   /// Takes the source points [begin, end) of the matcher's order, at most kCapacity. The match of
-  /// point k is entry entry_of(k) of the matches. Fits are left out unless `needs`, a union
-  /// of Needs, has one.
+  /// point k is entry entry_of(k) of the matches. What `needs`, a union of Needs, has not is left
+  /// out.
   template <class EntryOf>
   void Fill(const Matcher& matcher, const Matches& matches, std::size_t begin, std::size_t end,
             unsigned needs, const EntryOf& entry_of);
@@ -32,6 +32,14 @@ class PairBlock {
   std::optional<Correspondence> Pair(std::size_t i, unsigned needs) const;
 
  private:
+  // What is the same for all pairs, by its kind.
+  static const Mat3& OfMatching(const Matcher&, const Matches& matches, kind::Rotation) {
+    return matches.T_target_source.R();
+  }
+  static double OfMatching(const Matcher& matcher, const Matches&, kind::Scalar) {
+    return matcher.area_patch();
+  }
+
   BlockValues values_ = {};
 };
 
@@ -39,42 +47,47 @@ class PairBlock {
 template <class EntryOf>
 void PairBlock::Fill(const Matcher& matcher, const Matches& matches, std::size_t begin,
                      std::size_t end, unsigned needs, const EntryOf& entry_of) {
-  const PointsView source = matcher.searchable_source().points().Slice(begin, end);
-  const PointsView source_normals = matcher.searchable_source().normals().Slice(begin, end);
-  const SearchableCloud& target_cloud = matcher.searchable_target();
-  const PointsView target = target_cloud.points();
-  const PointsView normals = target_cloud.normals();
-  const float* const p_source[3] = {source.x, source.y, source.z};
-  const float* const n_source[3] = {source_normals.x, source_normals.y, source_normals.z};
-  std::copy(p_source, p_source + 3, values_.p_source);
-  std::copy(n_source, n_source + 3, values_.n_source);
-  values_.area_patch = matcher.area_patch();
-  values_.size = end - begin;
-  const bool fits = (needs & (kTargetLine | kTargetPatch)) != 0;
-  for (std::size_t i = 0; i < end - begin; ++i) {
-    const std::size_t m = entry_of(begin + i);
-    const std::int32_t j = matches.target_index[m];
-    const std::int32_t found = j < 0 ? -1 : target_cloud.Place(static_cast<std::size_t>(j));
+  const SearchableCloud& target = matcher.searchable_target();
+  const std::size_t size = values_.size = end - begin;
+  std::size_t entry[kCapacity];
+  std::size_t place[kCapacity];  // In the target; any point's where there is no match.
+  for (std::size_t i = 0; i < size; ++i) {
+    entry[i] = entry_of(begin + i);
+    const std::int32_t j = matches.target_index[entry[i]];
+    const std::int32_t found = j < 0 ? -1 : target.Place(static_cast<std::size_t>(j));
     values_.matched[i] = found < 0 ? 0.0F : 1.0F;
-    if (found < 0) {
-      continue;
-    }
-    const auto place = static_cast<std::size_t>(found);
-    if (fits) {
-      for (int axis = 0; axis < 3; ++axis) {
-        values_.anchor[axis][i] = matches.fits[m].anchor[axis];
-        values_.direction[axis][i] = matches.fits[m].direction[axis];
-      }
-    }
-    values_.q_target[0][i] = target.x[place];
-    values_.q_target[1][i] = target.y[place];
-    values_.q_target[2][i] = target.z[place];
-    values_.n_target[0][i] = normals.x[place];
-    values_.n_target[1][i] = normals.y[place];
-    values_.n_target[2][i] = normals.z[place];
+    place[i] = found < 0 ? 0 : static_cast<std::size_t>(found);
   }
   // Behind the last pair nothing counts.
-  std::fill(values_.matched + values_.size, values_.matched + kCapacity, 0.0F);
+  std::fill(values_.matched + size, values_.matched + kCapacity, 0.0F);
+  ForEachQuantity<double>([&](auto row) {
+    using Row = decltype(row);
+    using Kind = typename Row::Kind;
+    if (!Row::IsNeededBy(needs)) {
+      return;
+    }
+    constexpr std::size_t kFirst = FirstNumber<Kind>(Row::kOrigin);
+    for (std::size_t k = 0; k < Kind::kSize; ++k) {
+      if constexpr (Row::kOrigin == Origin::kSourceCloud) {
+        values_.source[kFirst + k] = matcher.searchable_source().Numbers(Kind())[k] + begin;
+      } else if constexpr (Row::kOrigin == Origin::kTargetCloud) {
+        const float* const from = target.Numbers(Kind())[k];
+        for (std::size_t i = 0; i < size; ++i) {
+          values_.target[kFirst + k][i] = from[place[i]];
+        }
+      } else if constexpr (Row::kOrigin == Origin::kFit) {
+        for (std::size_t i = 0; i < size; ++i) {
+          if (values_.matched[i] != 0) {
+            values_.fit[kFirst + k][i] =
+                Kind::template NumberOf<double>(matches.fits[entry[i]].Of(Kind()), k);
+          }
+        }
+      } else {
+        values_.matching[kFirst + k] =
+            Kind::template NumberOf<double>(OfMatching(matcher, matches, Kind()), k);
+      }
+    }
+  });
 }
 
 }  // namespace icpscape

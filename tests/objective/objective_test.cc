@@ -15,6 +15,7 @@
 #include "src/io/kitti.h"
 #include "src/matching/closest_point_matcher.h"
 #include "src/objective/loss.h"
+#include "src/objective/pairs.h"
 #include "tests/support/matchers.h"
 #include "tests/support/real_scans.h"
 #include "tests/support/residual_sampler.h"
@@ -35,8 +36,8 @@ struct RoomPair {
   PointCloud source = testing_support::Room(1500, 1, SE3d(), 0.01);
   PointCloud target = testing_support::Room(1500, 2, SE3d(), 0.01);
   RoomPair() {
-    EstimateNormals({}, 1, &source);
-    EstimateNormals({}, 1, &target);
+    testing_support::Complete(&source);
+    testing_support::Complete(&target);
   }
 };
 
@@ -88,21 +89,11 @@ TEST_P(EqualsCeres, OnFrozenMatches) {
     Vec6 gradient = Vec6::Zero();
     for (std::size_t p = 0; p < Room().source.size(); ++p) {
       WithMetric(metric, [&](auto tag) {
-        Correspondence c;
         if (matches.target_index[p] < 0) {
           return;
         }
-        const auto q = static_cast<std::size_t>(matches.target_index[p]);
-        if (!matches.fits.empty()) {
-          c.a_line = c.q_patch = matches.fits[p].anchor;
-          c.d_line = c.n_patch = matches.fits[p].direction;
-          c.area_patch = matcher->area_patch();
-        }
-        c.p_source = Room().source.Point(p);
-        c.q_target = Room().target.Point(q);
-        c.n_source = Room().source.Normal(p);
-        c.n_target = Room().target.Normal(q);
-        const auto m = decltype(tag)::Metric::From(c);
+        const auto m =
+            decltype(tag)::Metric::From(testing_support::PairByHand(*matcher, matches, p));
         const Vec6 term = m.Jacobian(T).transpose() * m.Residual(T);
         double rho[3] = {m.Residual(T).squaredNorm(), 1, 0};
         if (objective.loss() != nullptr) {
@@ -202,8 +193,8 @@ TEST(Objective, ReassociatedIsFrozenWithItsOwnMatches) {
 TEST(Objective, IsBitIdenticalForAnyNumberOfThreads) {
   PointCloud source = testing_support::Room(20000, 3, SE3d(), 0.01);
   PointCloud target = testing_support::Room(20000, 4, SE3d(), 0.01);
-  EstimateNormals({}, 2, &source);
-  EstimateNormals({}, 2, &target);
+  testing_support::Complete(&source);
+  testing_support::Complete(&target);
   for (const std::string& metric : AllMetricNames()) {
     const auto matcher = testing_support::MatcherFor(metric, source, target);
     const Objective objective(metric, *matcher);
@@ -232,6 +223,45 @@ TEST(Objective, GateAndMissingNormalsReduceN) {
   EXPECT_EQ(Objective("point_to_plane", gated).Evaluate(SE3d(), 1).n(), 1);
   const ClosestPointMatcher open(source, target);
   EXPECT_EQ(Objective("point_to_point", open).Evaluate(SE3d(), 1).n(), 3);
+}
+
+// Every number of every pair, with the pose of the matches, not the one of an evaluation.
+TEST(Objective, HandsOutPairsAsTheCloudsHaveThem) {
+  for (const char* metric : {"two_plane", "edge_to_line", "planar_to_patch"}) {
+    const auto matcher = testing_support::MatcherFor(metric, Room().source, Room().target);
+    const Objective objective(metric, *matcher);
+    const SE3d T = SE3d::Exp((Vec6() << 0.01, -0.02, 0.03, 0.1, 0.2, 0).finished());
+    const Matches matches = objective.Match(T, 1);
+    int pairs = 0;
+    ForEachPair(objective, matches, [&](std::size_t i, std::size_t j, const Correspondence& pair) {
+      EXPECT_EQ(matches.target_index[i], static_cast<std::int32_t>(j));
+      const Correspondence expected = testing_support::PairByHand(*matcher, matches, i);
+      ForEachQuantity<double>([&](auto row) {
+        using Row = decltype(row);
+        if (Row::IsNeededBy(objective.needs())) {
+          EXPECT_EQ(pair.*Row::kMember, expected.*Row::kMember) << metric << " " << i;
+        }
+      });
+      EXPECT_EQ(pair.R_matched, T.R());
+      ++pairs;
+    });
+    EXPECT_EQ(pairs, objective.Evaluate(SE3d(), matches, 1).n());
+    EXPECT_GT(pairs, 100);
+  }
+}
+
+TEST(Objective, ChecksWhatTheCloudsCarryAndTheMatcherProvides) {
+  const PointCloud bare = testing_support::Room(100, 1);
+  const ClosestPointMatcher source_only(Room().source, bare);
+  EXPECT_DEATH(Objective("two_plane", source_only),
+               "two_plane needs target normals; the target cloud has none");
+  const ClosestPointMatcher target_only(bare, Room().target);
+  EXPECT_DEATH(Objective("symmetric", target_only),
+               "symmetric needs source normals; the source cloud has none");
+  EXPECT_DEATH(Objective("edge_to_line", source_only),
+               "edge_to_line needs more than its matcher provides");
+  // What a metric does not need may be missing.
+  EXPECT_EQ(Objective("point_to_plane", target_only).Evaluate(SE3d(), 1).n(), 100);
 }
 
 TEST(Objective, UnknownMetricNamesTheKnownOnes) {

@@ -83,22 +83,11 @@ TEST(Pass, SumsWhatTheResidualsSay) {
       NormalEquations sums;
       double epsilon = 0;
       for (std::size_t i = 0; i < matches.target_index.size(); ++i) {
-        const std::int32_t match = matches.target_index[i];
-        if (match < 0) {
+        if (matches.target_index[i] < 0) {
           continue;
         }
-        const auto j = static_cast<std::size_t>(match);
-        Correspondence c;
-        c.p_source = Room().source.Point(i);
-        c.q_target = Room().target.Point(j);
-        c.n_source = Room().source.Normal(i);
-        c.n_target = Room().target.Normal(j);
-        if (!matches.fits.empty()) {
-          c.a_line = c.q_patch = matches.fits[i].anchor;
-          c.d_line = c.n_patch = matches.fits[i].direction;
-          c.area_patch = objective.matcher().area_patch();
-        }
-        const Metric metric = Metric::From(c);
+        const Metric metric =
+            Metric::From(testing_support::PairByHand(objective.matcher(), matches, i));
         const auto r = metric.Residual(kPose);
         double rho[3] = {r.squaredNorm(), 1, 0};
         if (objective.loss() != nullptr) {

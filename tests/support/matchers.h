@@ -29,6 +29,28 @@ inline std::unique_ptr<Matcher> MatcherFor(const std::string& metric, const Poin
   return std::make_unique<ClosestPointMatcher>(source, target);
 }
 
+/// The pair of the i-th source point, which has a match, by hand from clouds and fits: what an
+/// objective must hand to its metric.
+inline Correspondence PairByHand(const Matcher& matcher, const Matches& matches, std::size_t i) {
+  const auto j = static_cast<std::size_t>(matches.target_index[i]);
+  Correspondence c;
+  c.p_source = matcher.source().Point(i);
+  c.q_target = matcher.target().Point(j);
+  c.R_matched = matches.T_target_source.R();
+  if (matcher.source().has_normals()) {
+    c.n_source = matcher.source().Normal(i);
+  }
+  if (matcher.target().has_normals()) {
+    c.n_target = matcher.target().Normal(j);
+  }
+  if (!matches.fits.empty()) {
+    c.a_line = c.q_patch = matches.fits[i].anchor;
+    c.d_line = c.n_patch = matches.fits[i].direction;
+    c.area_patch = matcher.area_patch();
+  }
+  return c;
+}
+
 }  // namespace icpscape::testing_support
 
 #endif  // ICPSCAPE_TESTS_SUPPORT_MATCHERS_H_

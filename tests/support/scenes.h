@@ -56,15 +56,18 @@ inline PointCloud Room(int points, unsigned seed, const SE3d& T_sensor_room = SE
   return cloud;
 }
 
-/// The room seen from two places: T_target_source is `motion`. Both clouds have normals.
+/// Adds all that a metric can need of a cloud.
+inline void Complete(PointCloud* cloud) { EstimateNormals({}, 2, cloud); }
+
+/// The room seen from two places: T_target_source is `motion`. Both clouds are complete.
 struct MovedRoom {
   PointCloud target;
   PointCloud source;
 
   MovedRoom(int points, const SE3d& motion)
       : target(Room(points, 1, SE3d(), 0.005)), source(Room(points, 2, motion.Inverse(), 0.005)) {
-    EstimateNormals({}, 2, &target);
-    EstimateNormals({}, 2, &source);
+    Complete(&target);
+    Complete(&source);
   }
 };
 
