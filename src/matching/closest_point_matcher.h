@@ -40,7 +40,11 @@ class ClosestPointMatcher final : public Matcher {
   ClosestPointMatcher(SearchableCloud source, SearchableCloud target,
                       const MatchingOptions& options = {});
 
-  unsigned Provides() const override { return kSourceNormal | kTargetNormal; }
+  /// All that clouds carry.
+  static constexpr unsigned kProvides =
+      NeedsFrom(Origin::kSourceCloud) | NeedsFrom(Origin::kTargetCloud);
+
+  unsigned Provides() const override { return kProvides; }
   bool Rejects() const override;
   void Reject(const SE3d& T_target_source, int threads, Matches* matches) const override;
 

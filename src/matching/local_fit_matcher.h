@@ -47,7 +47,11 @@ class LocalFitMatcher final : public Matcher {
   LocalFitMatcher(Shape shape, SearchableCloud source, SearchableCloud target,
                   const LocalFitOptions& options = {});
 
-  unsigned Provides() const override { return shape_ == Shape::kLine ? kTargetLine : kTargetPatch; }
+  static constexpr unsigned ProvidedBy(Shape shape) {
+    return shape == Shape::kLine ? kTargetLine : kTargetPatch;
+  }
+
+  unsigned Provides() const override { return ProvidedBy(shape_); }
   double area_patch() const override { return options_.triangle_leg_m * options_.triangle_leg_m; }
 
  private:

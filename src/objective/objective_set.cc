@@ -8,16 +8,16 @@
 namespace icpscape {
 namespace {
 
-bool NeedsLine(const std::string& metric) {
-  return (MetricNamed(metric).needs & kTargetLine) != 0;
-}
+bool NeedsLine(const std::string& metric) { return (MetricNamed(metric).needs & kTargetLine) != 0; }
 bool NeedsPatch(const std::string& metric) {
   return (MetricNamed(metric).needs & kTargetPatch) != 0;
 }
 
 }  // namespace
 
-bool NeedsFeatures(const std::string& metric) { return NeedsLine(metric) || NeedsPatch(metric); }
+bool NeedsFeatures(const std::string& metric) {
+  return MatcherKindFor(MetricNamed(metric).needs).WorksOnFeatures();
+}
 
 ObjectiveSet::ObjectiveSet(const PointCloud& source, const PointCloud& target,
                            const Features& features, const std::vector<std::string>& metrics,
@@ -51,40 +51,28 @@ ObjectiveSet::ObjectiveSet(const MetricClouds& source, const MetricClouds& targe
 void ObjectiveSet::AddObjectives(const MetricClouds& source, const MetricClouds& target,
                                  const std::vector<std::string>& metrics,
                                  const ObjectiveSetOptions& options) {
-  for (const std::string& metric : metrics) {
+  for (const std::string& name : metrics) {
+    const RegisteredMetric& metric = MetricNamed(name);
     const Matcher& matcher = MatcherFor(metric, source, target, options);
     if (matcher.source().empty()) {
-      throw ComputationError(metric + ": no source point is left for it; expected at least one.");
+      throw ComputationError(name + ": no source point is left for it; expected at least one.");
     }
     objectives_.emplace_back(metric, matcher, options.loss);
   }
 }
 
-const Matcher& ObjectiveSet::MatcherFor(const std::string& metric, const MetricClouds& source,
+const Matcher& ObjectiveSet::MatcherFor(const RegisteredMetric& metric, const MetricClouds& source,
                                         const MetricClouds& target,
                                         const ObjectiveSetOptions& options) {
-  if (NeedsLine(metric)) {
-    CHECK(source.edges && target.edges) << metric << " needs clouds of edges";
-    if (!lines_) {
-      lines_ = std::make_unique<LocalFitMatcher>(LocalFitMatcher::Shape::kLine, *source.edges,
-                                                 *target.edges, options.line);
-    }
-    return *lines_;
+  const MatcherKind& kind = MatcherKindFor(metric.needs);
+  const std::optional<SearchableCloud>& from = source.*kind.clouds;
+  const std::optional<SearchableCloud>& to = target.*kind.clouds;
+  CHECK(from && to) << metric.name << " needs clouds of " << kind.clouds_name;
+  std::unique_ptr<Matcher>& matcher = matchers_[&kind];
+  if (!matcher) {
+    matcher = kind.make(*from, *to, options);
   }
-  if (NeedsPatch(metric)) {
-    CHECK(source.planar && target.planar) << metric << " needs clouds of planar points";
-    if (!patches_) {
-      patches_ = std::make_unique<LocalFitMatcher>(LocalFitMatcher::Shape::kPatch, *source.planar,
-                                                   *target.planar, options.patch);
-    }
-    return *patches_;
-  }
-  CHECK(source.points && target.points) << metric << " needs clouds of points";
-  if (!points_) {
-    points_ =
-        std::make_unique<ClosestPointMatcher>(*source.points, *target.points, options.matching);
-  }
-  return *points_;
+  return *matcher;
 }
 
 }  // namespace icpscape

@@ -2,14 +2,13 @@
 #ifndef ICPSCAPE_SRC_OBJECTIVE_OBJECTIVE_SET_H_
 #define ICPSCAPE_SRC_OBJECTIVE_OBJECTIVE_SET_H_
 
+#include <map>
 #include <memory>
 #include <string>
 #include <vector>
 
 #include "src/cloud/features.h"
-#include "src/matching/closest_point_matcher.h"
-#include "src/matching/local_fit_matcher.h"
-#include "src/matching/metric_clouds.h"
+#include "src/matching/matcher_kinds.h"
 #include "src/objective/objective.h"
 
 namespace icpscape {
@@ -18,17 +17,13 @@ namespace icpscape {
 bool NeedsFeatures(const std::string& metric);
 
 /// How the objectives of several metrics are set up over one pair of scans.
-struct ObjectiveSetOptions {
-  MatchingOptions matching;  ///< Closest-point metrics.
-  LocalFitOptions line;      ///< Edge metrics.
-  LocalFitOptions patch;     ///< Planar metrics.
+struct ObjectiveSetOptions : MatcherOptions {
   std::shared_ptr<const ceres::LossFunction> loss;
   int threads = 1;  ///< To build the searches; results do not depend on it.
 };
 
-/// The objectives of several metrics over one pair of scans, with the matchers that they need:
-/// closest points for all source points, lines for its edge points and patches for its planar ones.
-/// Metrics of a kind share a matcher, and all matchers the search over the target.
+/// The objectives of several metrics over one pair of scans, with the matchers that they need; see
+/// AllMatcherKinds. Metrics of a kind share a matcher.
 class ObjectiveSet {
  public:
   /// The clouds must outlive the set, and have normals where a metric needs them; `features` are
@@ -47,15 +42,13 @@ class ObjectiveSet {
  private:
   void AddObjectives(const MetricClouds& source, const MetricClouds& target,
                      const std::vector<std::string>& metrics, const ObjectiveSetOptions& options);
-  const Matcher& MatcherFor(const std::string& metric, const MetricClouds& source,
+  const Matcher& MatcherFor(const RegisteredMetric& metric, const MetricClouds& source,
                             const MetricClouds& target, const ObjectiveSetOptions& options);
 
   // On the heap: the matchers refer to them, and a set may be moved.
   std::unique_ptr<PointCloud> edges_;
   std::unique_ptr<PointCloud> planar_;
-  std::unique_ptr<Matcher> points_;
-  std::unique_ptr<Matcher> lines_;
-  std::unique_ptr<Matcher> patches_;
+  std::map<const MatcherKind*, std::unique_ptr<Matcher>> matchers_;
   std::vector<Objective> objectives_;
 };
 

@@ -51,8 +51,7 @@ struct AllObjectives {
       using Metric = typename decltype(tag)::Metric;
       Matcher* shared = nullptr;
       for (const auto& matcher : matchers) {
-        if ((Metric::kNeeds & ~matcher->Provides()) == 0 &&
-            (matcher->Provides() & kTargetNormal) == (Metric::kNeeds & kTargetNormal)) {
+        if (MatcherKindFor(Metric::kNeeds).provides == matcher->Provides()) {
           shared = matcher.get();
         }
       }

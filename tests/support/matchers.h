@@ -5,8 +5,7 @@
 #include <memory>
 #include <string>
 
-#include "src/matching/closest_point_matcher.h"
-#include "src/matching/local_fit_matcher.h"
+#include "src/matching/matcher_kinds.h"
 #include "src/objective/objective.h"
 
 namespace icpscape::testing_support {
@@ -14,19 +13,13 @@ namespace icpscape::testing_support {
 /// A matcher that provides what the metric needs, over all points of the source.
 inline std::unique_ptr<Matcher> MatcherFor(const std::string& metric, const PointCloud& source,
                                            const PointCloud& target) {
-  const unsigned needs = MetricNamed(metric).needs;
-  LocalFitOptions lenient;  // A synthetic room has few edges as sharp as the paper's rules want.
-  lenient.eigenvalue_ratio = 1.5;
-  lenient.max_smallest_eigenvalue_m2 = 1;
-  if ((needs & kTargetLine) != 0) {
-    return std::make_unique<LocalFitMatcher>(LocalFitMatcher::Shape::kLine, source, target,
-                                             lenient);
+  const MatcherKind& kind = MatcherKindFor(MetricNamed(metric).needs);
+  MatcherOptions lenient;  // A synthetic room has few edges as sharp as the paper's rules want.
+  for (LocalFitOptions* fit : {&lenient.line, &lenient.patch}) {
+    fit->eigenvalue_ratio = 1.5;
+    fit->max_smallest_eigenvalue_m2 = 1;
   }
-  if ((needs & kTargetPatch) != 0) {
-    return std::make_unique<LocalFitMatcher>(LocalFitMatcher::Shape::kPatch, source, target,
-                                             lenient);
-  }
-  return std::make_unique<ClosestPointMatcher>(source, target);
+  return kind.make(source, target, lenient);
 }
 
 /// The pair of the i-th source point, which has a match, by hand from clouds and fits: what an
