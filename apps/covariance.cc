@@ -5,12 +5,12 @@
 #include <filesystem>
 #include <iostream>
 
-#include "apps/app.h"
-#include "apps/covariance_report.h"
-#include "apps/lidar_flags.h"
-#include "apps/objective_flags.h"
-#include "apps/pair_filters.h"
-#include "apps/pair_flags.h"
+#include "apps/flags/lidar.h"
+#include "apps/flags/objective.h"
+#include "apps/flags/pair.h"
+#include "apps/flags/pair_filters.h"
+#include "apps/reports/covariance.h"
+#include "apps/run/app.h"
 #include "src/common/error.h"
 #include "src/common/text.h"
 #include "src/covariance/monte_carlo.h"

@@ -6,8 +6,8 @@
 #include <iostream>
 #include <set>
 
-#include "apps/app.h"
-#include "apps/trajectory_report.h"
+#include "apps/reports/trajectory.h"
+#include "apps/run/app.h"
 #include "src/common/error.h"
 #include "src/common/text.h"
 #include "src/io/kitti.h"

@@ -7,9 +7,9 @@
 #include <cstdio>
 #include <iostream>
 
-#include "apps/app.h"
-#include "apps/objective_flags.h"
-#include "apps/pair_flags.h"
+#include "apps/flags/objective.h"
+#include "apps/flags/pair.h"
+#include "apps/run/app.h"
 #include "src/common/error.h"
 #include "src/common/text.h"
 #include "src/filtering/filter_chain.h"

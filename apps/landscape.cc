@@ -7,12 +7,12 @@
 #include <cstdio>
 #include <iostream>
 
-#include "apps/app.h"
-#include "apps/iterates.h"
-#include "apps/minimizer_flags.h"
-#include "apps/objective_flags.h"
-#include "apps/pair_filters.h"
-#include "apps/pair_flags.h"
+#include "apps/flags/minimizer.h"
+#include "apps/flags/objective.h"
+#include "apps/flags/pair.h"
+#include "apps/flags/pair_filters.h"
+#include "apps/reports/iterates.h"
+#include "apps/run/app.h"
 #include "residuals/registry.h"
 #include "src/common/error.h"
 #include "src/common/text.h"

@@ -10,11 +10,11 @@
 #include <optional>
 #include <set>
 
-#include "apps/app.h"
-#include "apps/odometry_flags.h"
-#include "apps/run_flags.h"
-#include "apps/sequence_flags.h"
-#include "apps/trajectory_report.h"
+#include "apps/flags/odometry.h"
+#include "apps/flags/run.h"
+#include "apps/flags/sequence.h"
+#include "apps/reports/trajectory.h"
+#include "apps/run/app.h"
 #include "src/common/error.h"
 #include "src/common/text.h"
 #include "src/io/journal.h"

@@ -7,11 +7,11 @@
 #include <iostream>
 #include <optional>
 
-#include "apps/app.h"
-#include "apps/minimizer_flags.h"
-#include "apps/objective_flags.h"
-#include "apps/pair_filters.h"
-#include "apps/pair_flags.h"
+#include "apps/flags/minimizer.h"
+#include "apps/flags/objective.h"
+#include "apps/flags/pair.h"
+#include "apps/flags/pair_filters.h"
+#include "apps/run/app.h"
 #include "src/common/error.h"
 #include "src/common/text.h"
 #include "src/io/output.h"

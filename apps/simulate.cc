@@ -3,8 +3,8 @@
 
 #include <iostream>
 
-#include "apps/app.h"
-#include "apps/lidar_flags.h"
+#include "apps/flags/lidar.h"
+#include "apps/run/app.h"
 #include "src/common/error.h"
 #include "src/common/parallel.h"
 #include "src/common/text.h"

@@ -5,7 +5,7 @@
 
 #include <iostream>
 
-#include "apps/pair_flags.h"
+#include "apps/flags/pair.h"
 #include "src/common/error.h"
 #include "src/simd/level.h"
 #include "tests/benchmarks/comparison.h"

@@ -4,7 +4,7 @@
 
 #include <string>
 
-#include "apps/pair_flags.h"
+#include "apps/flags/pair.h"
 #include "src/simd/level.h"
 
 namespace icpscape {

@@ -7,7 +7,7 @@
 #include <functional>
 #include <iostream>
 
-#include "apps/pair_flags.h"
+#include "apps/flags/pair.h"
 #include "src/cloud/normals.h"
 #include "src/common/error.h"
 #include "src/common/text.h"

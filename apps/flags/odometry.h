@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#ifndef ICPSCAPE_APPS_ODOMETRY_FLAGS_H_
-#define ICPSCAPE_APPS_ODOMETRY_FLAGS_H_
+#ifndef ICPSCAPE_APPS_FLAGS_ODOMETRY_H_
+#define ICPSCAPE_APPS_FLAGS_ODOMETRY_H_
 
 #include "src/odometry/odometry.h"
 
@@ -15,4 +15,4 @@ OdometryOptions OdometryFromFlags();
 
 }  // namespace icpscape
 
-#endif  // ICPSCAPE_APPS_ODOMETRY_FLAGS_H_
+#endif  // ICPSCAPE_APPS_FLAGS_ODOMETRY_H_

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#ifndef ICPSCAPE_APPS_OBJECTIVE_FLAGS_H_
-#define ICPSCAPE_APPS_OBJECTIVE_FLAGS_H_
+#ifndef ICPSCAPE_APPS_FLAGS_OBJECTIVE_H_
+#define ICPSCAPE_APPS_FLAGS_OBJECTIVE_H_
 
 #include <string>
 #include <vector>
@@ -21,4 +21,4 @@ FeatureOptions FeaturesFromFlags();
 
 }  // namespace icpscape
 
-#endif  // ICPSCAPE_APPS_OBJECTIVE_FLAGS_H_
+#endif  // ICPSCAPE_APPS_FLAGS_OBJECTIVE_H_

@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#ifndef ICPSCAPE_APPS_PAIR_FLAGS_H_
-#define ICPSCAPE_APPS_PAIR_FLAGS_H_
+#ifndef ICPSCAPE_APPS_FLAGS_PAIR_H_
+#define ICPSCAPE_APPS_FLAGS_PAIR_H_
 
 #include <optional>
 #include <string>
 #include <vector>
 
-#include "apps/run_flags.h"
+#include "apps/flags/run.h"
 #include "src/cloud/features.h"
 #include "src/cloud/point_cloud.h"
 #include "src/io/manifest.h"
@@ -45,4 +45,4 @@ std::optional<GroundTruthCheck> GroundTruthCheckOf(const ScanPair& pair, bool ne
 
 }  // namespace icpscape
 
-#endif  // ICPSCAPE_APPS_PAIR_FLAGS_H_
+#endif  // ICPSCAPE_APPS_FLAGS_PAIR_H_

@@ -1,17 +1,17 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "apps/odometry_flags.h"
+#include "apps/flags/odometry.h"
 
 #include <gflags/gflags.h>
 
 #include <algorithm>
 #include <cmath>
 
-#include "apps/app.h"
-#include "apps/filter_flags.h"
-#include "apps/minimizer_flags.h"
-#include "apps/objective_flags.h"
-#include "apps/preprocessing_flags.h"
-#include "apps/run_flags.h"
+#include "apps/flags/filters.h"
+#include "apps/flags/minimizer.h"
+#include "apps/flags/objective.h"
+#include "apps/flags/preprocessing.h"
+#include "apps/flags/run.h"
+#include "apps/run/app.h"
 #include "src/common/text.h"
 
 DECLARE_string(reassociation);

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#ifndef ICPSCAPE_APPS_PREPROCESSING_FLAGS_H_
-#define ICPSCAPE_APPS_PREPROCESSING_FLAGS_H_
+#ifndef ICPSCAPE_APPS_FLAGS_PREPROCESSING_H_
+#define ICPSCAPE_APPS_FLAGS_PREPROCESSING_H_
 
 #include <string>
 #include <vector>
@@ -16,4 +16,4 @@ PreprocessingOptions PreprocessingFromFlags(const std::vector<std::string>& metr
 
 }  // namespace icpscape
 
-#endif  // ICPSCAPE_APPS_PREPROCESSING_FLAGS_H_
+#endif  // ICPSCAPE_APPS_FLAGS_PREPROCESSING_H_

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#ifndef ICPSCAPE_APPS_TRAJECTORY_REPORT_H_
-#define ICPSCAPE_APPS_TRAJECTORY_REPORT_H_
+#ifndef ICPSCAPE_APPS_REPORTS_TRAJECTORY_H_
+#define ICPSCAPE_APPS_REPORTS_TRAJECTORY_H_
 
 #include <filesystem>
 #include <string>
@@ -33,4 +33,4 @@ bool DrawTrajectories(const std::vector<NamedTrajectory>& trajectories, const st
 
 }  // namespace icpscape
 
-#endif  // ICPSCAPE_APPS_TRAJECTORY_REPORT_H_
+#endif  // ICPSCAPE_APPS_REPORTS_TRAJECTORY_H_

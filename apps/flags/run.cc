@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "apps/run_flags.h"
+#include "apps/flags/run.h"
 
 #include <gflags/gflags.h>
 
-#include "apps/app.h"
+#include "apps/run/app.h"
 #include "src/common/parallel.h"
 #include "src/io/output.h"
 

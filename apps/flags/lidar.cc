@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "apps/lidar_flags.h"
+#include "apps/flags/lidar.h"
 
 #include <gflags/gflags.h>
 

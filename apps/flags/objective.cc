@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "apps/objective_flags.h"
+#include "apps/flags/objective.h"
 
 #include <gflags/gflags.h>
 
 #include <cmath>
 
-#include "apps/app.h"
-#include "apps/run_flags.h"
+#include "apps/flags/run.h"
+#include "apps/run/app.h"
 #include "src/common/text.h"
 #include "src/objective/loss.h"
 

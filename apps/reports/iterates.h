@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#ifndef ICPSCAPE_APPS_ITERATES_H_
-#define ICPSCAPE_APPS_ITERATES_H_
+#ifndef ICPSCAPE_APPS_REPORTS_ITERATES_H_
+#define ICPSCAPE_APPS_REPORTS_ITERATES_H_
 
 #include <filesystem>
 #include <string>
@@ -32,4 +32,4 @@ void ReportIterates(const std::vector<MetricIterates>& all, const Path& path,
 
 }  // namespace icpscape
 
-#endif  // ICPSCAPE_APPS_ITERATES_H_
+#endif  // ICPSCAPE_APPS_REPORTS_ITERATES_H_

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "apps/pair_flags.h"
+#include "apps/flags/pair.h"
 
 #include <gflags/gflags.h>
 
@@ -10,10 +10,10 @@
 #include <iostream>
 #include <utility>
 
-#include "apps/app.h"
-#include "apps/lidar_flags.h"
-#include "apps/objective_flags.h"
-#include "apps/preprocessing_flags.h"
+#include "apps/flags/lidar.h"
+#include "apps/flags/objective.h"
+#include "apps/flags/preprocessing.h"
+#include "apps/run/app.h"
 #include "residuals/correspondence.h"
 #include "src/cloud/normals.h"
 #include "src/cloud/rings.h"

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "apps/app.h"
+#include "apps/run/app.h"
 
 #include <fcntl.h>
 #include <gflags/gflags.h>

@@ -1,14 +1,14 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "apps/minimizer_flags.h"
+#include "apps/flags/minimizer.h"
 
 #include <gflags/gflags.h>
 
 #include <algorithm>
 #include <cmath>
 
-#include "apps/app.h"
-#include "apps/objective_flags.h"
-#include "apps/run_flags.h"
+#include "apps/flags/objective.h"
+#include "apps/flags/run.h"
+#include "apps/run/app.h"
 #include "src/common/error.h"
 #include "src/common/text.h"
 

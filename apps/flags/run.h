@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#ifndef ICPSCAPE_APPS_RUN_FLAGS_H_
-#define ICPSCAPE_APPS_RUN_FLAGS_H_
+#ifndef ICPSCAPE_APPS_FLAGS_RUN_H_
+#define ICPSCAPE_APPS_FLAGS_RUN_H_
 
 #include <filesystem>
 
@@ -15,4 +15,4 @@ std::filesystem::path OutputFolder();
 
 }  // namespace icpscape
 
-#endif  // ICPSCAPE_APPS_RUN_FLAGS_H_
+#endif  // ICPSCAPE_APPS_FLAGS_RUN_H_

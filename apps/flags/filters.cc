@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "apps/filter_flags.h"
+#include "apps/flags/filters.h"
 
 #include <gflags/gflags.h>
 
 #include <cmath>
 #include <utility>
 
-#include "apps/app.h"
+#include "apps/run/app.h"
 #include "src/common/text.h"
 
 DEFINE_double(artificial_blind_spot_m, 0,

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#ifndef ICPSCAPE_APPS_SEQUENCE_FLAGS_H_
-#define ICPSCAPE_APPS_SEQUENCE_FLAGS_H_
+#ifndef ICPSCAPE_APPS_FLAGS_SEQUENCE_H_
+#define ICPSCAPE_APPS_FLAGS_SEQUENCE_H_
 
 #include "src/io/manifest.h"
 #include "src/io/scan_sequence.h"
@@ -17,4 +17,4 @@ ScanSequence SequenceFromFlags(Manifest* manifest);
 
 }  // namespace icpscape
 
-#endif  // ICPSCAPE_APPS_SEQUENCE_FLAGS_H_
+#endif  // ICPSCAPE_APPS_FLAGS_SEQUENCE_H_

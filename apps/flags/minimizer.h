@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#ifndef ICPSCAPE_APPS_MINIMIZER_FLAGS_H_
-#define ICPSCAPE_APPS_MINIMIZER_FLAGS_H_
+#ifndef ICPSCAPE_APPS_FLAGS_MINIMIZER_H_
+#define ICPSCAPE_APPS_FLAGS_MINIMIZER_H_
 
 #include "src/minimizer/minimizer.h"
 
@@ -17,4 +17,4 @@ void CheckWeightFlags();
 
 }  // namespace icpscape
 
-#endif  // ICPSCAPE_APPS_MINIMIZER_FLAGS_H_
+#endif  // ICPSCAPE_APPS_FLAGS_MINIMIZER_H_

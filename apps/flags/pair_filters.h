@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#ifndef ICPSCAPE_APPS_PAIR_FILTERS_H_
-#define ICPSCAPE_APPS_PAIR_FILTERS_H_
+#ifndef ICPSCAPE_APPS_FLAGS_PAIR_FILTERS_H_
+#define ICPSCAPE_APPS_FLAGS_PAIR_FILTERS_H_
 
-#include "apps/pair_flags.h"
+#include "apps/flags/pair.h"
 #include "src/io/manifest.h"
 
 namespace icpscape {
@@ -18,4 +18,4 @@ void FilterPair(ScanPair* pair, Manifest* manifest);
 
 }  // namespace icpscape
 
-#endif  // ICPSCAPE_APPS_PAIR_FILTERS_H_
+#endif  // ICPSCAPE_APPS_FLAGS_PAIR_FILTERS_H_

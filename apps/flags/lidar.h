@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#ifndef ICPSCAPE_APPS_LIDAR_FLAGS_H_
-#define ICPSCAPE_APPS_LIDAR_FLAGS_H_
+#ifndef ICPSCAPE_APPS_FLAGS_LIDAR_H_
+#define ICPSCAPE_APPS_FLAGS_LIDAR_H_
 
 #include <cstdint>
 
@@ -17,4 +17,4 @@ std::uint64_t SeedFromFlags();
 
 }  // namespace icpscape
 
-#endif  // ICPSCAPE_APPS_LIDAR_FLAGS_H_
+#endif  // ICPSCAPE_APPS_FLAGS_LIDAR_H_

@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "apps/preprocessing_flags.h"
+#include "apps/flags/preprocessing.h"
 
 #include <gflags/gflags.h>
 
 #include <algorithm>
 #include <cmath>
 
-#include "apps/app.h"
-#include "apps/objective_flags.h"
+#include "apps/flags/objective.h"
+#include "apps/run/app.h"
 #include "src/common/text.h"
 
 DEFINE_double(elevation_correction_deg, 0,

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#ifndef ICPSCAPE_APPS_FILTER_FLAGS_H_
-#define ICPSCAPE_APPS_FILTER_FLAGS_H_
+#ifndef ICPSCAPE_APPS_FLAGS_FILTERS_H_
+#define ICPSCAPE_APPS_FLAGS_FILTERS_H_
 
 #include "src/filtering/filter_chain.h"
 
@@ -11,4 +11,4 @@ FilterOptions FiltersFromFlags();
 
 }  // namespace icpscape
 
-#endif  // ICPSCAPE_APPS_FILTER_FLAGS_H_
+#endif  // ICPSCAPE_APPS_FLAGS_FILTERS_H_

@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "apps/sequence_flags.h"
+#include "apps/flags/sequence.h"
 
 #include <gflags/gflags.h>
 
 #include <iostream>
 
-#include "apps/app.h"
+#include "apps/run/app.h"
 #include "src/common/error.h"
 #include "src/io/kitti.h"
 #include "src/io/trajectory.h"

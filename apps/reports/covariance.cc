@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "apps/covariance_report.h"
+#include "apps/reports/covariance.h"
 
 #include <algorithm>
 #include <array>

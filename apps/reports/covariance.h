@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#ifndef ICPSCAPE_APPS_COVARIANCE_REPORT_H_
-#define ICPSCAPE_APPS_COVARIANCE_REPORT_H_
+#ifndef ICPSCAPE_APPS_REPORTS_COVARIANCE_H_
+#define ICPSCAPE_APPS_REPORTS_COVARIANCE_H_
 
 #include <filesystem>
 #include <string>
@@ -41,4 +41,4 @@ class CovarianceReport {
 
 }  // namespace icpscape
 
-#endif  // ICPSCAPE_APPS_COVARIANCE_REPORT_H_
+#endif  // ICPSCAPE_APPS_REPORTS_COVARIANCE_H_

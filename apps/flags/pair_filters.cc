@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "apps/pair_filters.h"
+#include "apps/flags/pair_filters.h"
 
 #include <gflags/gflags.h>
 
@@ -8,8 +8,8 @@
 #include <string>
 #include <utility>
 
-#include "apps/app.h"
-#include "apps/filter_flags.h"
+#include "apps/flags/filters.h"
+#include "apps/run/app.h"
 #include "src/common/error.h"
 #include "src/filtering/filter_statistics.h"
 #include "src/io/transform.h"

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#ifndef ICPSCAPE_APPS_APP_H_
-#define ICPSCAPE_APPS_APP_H_
+#ifndef ICPSCAPE_APPS_RUN_APP_H_
+#define ICPSCAPE_APPS_RUN_APP_H_
 
 #include <chrono>
 #include <functional>
@@ -54,4 +54,4 @@ bool RunPlotScript(const std::string& script, const std::vector<std::string>& ar
 
 }  // namespace icpscape
 
-#endif  // ICPSCAPE_APPS_APP_H_
+#endif  // ICPSCAPE_APPS_RUN_APP_H_

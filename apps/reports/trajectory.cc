@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "apps/trajectory_report.h"
+#include "apps/reports/trajectory.h"
 
 #include <cmath>
 #include <cstdio>
@@ -7,7 +7,7 @@
 #include <optional>
 #include <utility>
 
-#include "apps/app.h"
+#include "apps/run/app.h"
 #include "src/common/error.h"
 #include "src/common/text.h"
 #include "src/io/output.h"

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "apps/iterates.h"
+#include "apps/reports/iterates.h"
 
 #include <cmath>
 #include <cstdio>
