@@ -115,12 +115,12 @@ void ReportSegmentErrors(const std::vector<NamedTrajectory>& trajectories,
 // Rows of pose_errors.csv, also on the screen.
 void AddPoseErrors(const std::string& sequence, const std::string& error,
                    const std::string& alignment, const PoseErrors& errors, Table* csv) {
-  const Statistics m = StatisticsOf(errors.translation_m);
+  const Statistics m = Summarize(errors.translation_m);
   std::vector<double> degrees;
   for (const double angle : errors.rotation_rad) {
     degrees.push_back(kDegrees * angle);
   }
-  const Statistics deg = StatisticsOf(degrees);
+  const Statistics deg = Summarize(degrees);
   std::printf("%-12s %-24s %9.4f %9.4f %9.4f %9.4f   %9.4f %9.4f %9.4f %9.4f\n", sequence.c_str(),
               (error + ", " + alignment).c_str(), m.rmse, m.mean, m.median, m.max, deg.rmse,
               deg.mean, deg.median, deg.max);
@@ -153,11 +153,11 @@ void ReportPoseErrors(const std::vector<NamedTrajectory>& trajectories, int rpe_
       const PoseErrors errors = AbsoluteErrors(pair, *T_truth_estimate);
       AddPoseErrors(name, "ATE", alignment_name, errors, &csv);
       manifest->SetResult("ate_rmse_m_" + std::string(alignment_name) + "_" + name,
-                          StatisticsOf(errors.translation_m).rmse);
+                          Summarize(errors.translation_m).rmse);
     }
     const PoseErrors errors = RelativeErrors(pair, rpe_frames);
     AddPoseErrors(name, "RPE_" + std::to_string(rpe_frames), "none", errors, &csv);
-    manifest->SetResult("rpe_rmse_m_" + name, StatisticsOf(errors.translation_m).rmse);
+    manifest->SetResult("rpe_rmse_m_" + name, Summarize(errors.translation_m).rmse);
   }
   csv.WriteCsv(out / "pose_errors.csv");
 }
