@@ -88,18 +88,10 @@ class Experiment {
 
 }  // namespace
 
-MinimizerOptions PreciseMinimizer() {
-  MinimizerOptions options;
-  options.max_iterations = 100;
-  options.min_step_m = 1e-5;
-  options.min_step_rad = 1e-6;
-  return options;
-}
-
 std::vector<std::vector<DrawResult>> RunMonteCarlo(const MonteCarloOptions& options,
                                                    const std::function<void(int)>& progress) {
   if (options.draws < 2) {
-    throw UsageError("--draws=" + std::to_string(options.draws) + ": expected at least 2.");
+    throw UsageError("draws=" + std::to_string(options.draws) + ": expected at least 2.");
   }
   options.covariance.Check();
   const Experiment experiment(options);

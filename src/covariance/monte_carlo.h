@@ -12,7 +12,7 @@
 #include "src/cloud/features.h"
 #include "src/cloud/normals.h"
 #include "src/covariance/consistency.h"
-#include "src/covariance/covariance.h"
+#include "src/covariance/registration_uncertainty.h"
 #include "src/minimizer/random_starts.h"
 #include "src/objective/objective_set.h"
 #include "src/simulation/lidar.h"
@@ -41,10 +41,6 @@ struct MonteCarloOptions {
   int draws = 100;
   int threads = 1;
 };
-
-/// A stop rule of 10 micrometres and 0.06 millidegrees: standard deviations are tenths of
-/// millimetres.
-MinimizerOptions PreciseMinimizer();
 
 /// One registration of one draw.
 struct DrawResult {

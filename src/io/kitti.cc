@@ -126,6 +126,15 @@ std::vector<SE3d> KittiSequence::LidarPoses() const {
   return poses;
 }
 
+std::vector<SE3d> KittiPosesOf(const std::vector<SE3d>& T_world_lidar, const SE3d& Tr) {
+  const SE3d T_first_world = T_world_lidar.front().Inverse();
+  std::vector<SE3d> T_first_camera;
+  for (const SE3d& T : T_world_lidar) {
+    T_first_camera.push_back(Tr * T_first_world * T * Tr.Inverse());
+  }
+  return T_first_camera;
+}
+
 SE3d ReadKittiCalibration(const std::filesystem::path& path) {
   std::ifstream in = Open(path, "a KITTI calib.txt");
   std::string line;

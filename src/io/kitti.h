@@ -43,6 +43,10 @@ class KittiSequence {
   std::string sequence_;
 };
 
+/// The poses as poses/SS.txt has them, P_i = Tr T_0^-1 T_i Tr^-1: of the camera, from poses of the
+/// lidar in any world. The first is the identity; the poses must not be empty.
+std::vector<SE3d> KittiPosesOf(const std::vector<SE3d>& T_world_lidar, const SE3d& Tr);
+
 /// Tr of a KITTI calib.txt: p_camera = Tr p_lidar. Throws InputError.
 SE3d ReadKittiCalibration(const std::filesystem::path& path);
 
