@@ -2,7 +2,7 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """Draws the objective over the index of the iteration, and below it the length of the steps.
 
-Reads iterates.csv of icpscape-landscape (one line a metric) or iterations.csv of icpscape-register.
+Reads iterates.csv of icpscape-landscape (one line a metric) or icpscape-register.
 """
 import argparse
 
@@ -41,7 +41,7 @@ def draw(runs, column, title):
 
 def main():
     parser = argparse.ArgumentParser(description=__doc__)
-    parser.add_argument("table", help="iterates.csv or iterations.csv")
+    parser.add_argument("table", help="iterates.csv as icpscape-landscape or icpscape-register writes it")
     parser.add_argument("--out", required=True, help="path of the figures, without extension")
     parser.add_argument("--column", default="rmse", choices=("cost", "rmse"))
     parser.add_argument("--title", default="")

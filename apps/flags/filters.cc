@@ -3,32 +3,25 @@
 
 #include <gflags/gflags.h>
 
-#include <cmath>
-#include <utility>
+#include "apps/flags/flag.h"
+#include "apps/flags/octree_filter.h"
 
-#include "apps/run/app.h"
-#include "src/common/text.h"
+static const icpscape::FlagGroup group(__FILE__, "Filters", icpscape::kNotOfDraws);
 
-DEFINE_double(artificial_blind_spot_m, 0,
-              "If positive: remove the points within this horizontal radius of the sensor (m); 5 "
-              "in the paper, sec. 4.2.");
-DEFINE_double(ego_filter_m, 0,
-              "If positive: ego blind spot (ego overlap) filter with this radius (m); 5 in the "
-              "paper's text, 6 in its data's file name.");
-DEFINE_double(octree_voxel_m, 0,
-              "If positive: Octree Correspondence Filter with voxels of this size (m); 0.1 in the "
-              "paper.");
+DEFINE_double(
+    artificial_blind_spot_m, 0,
+    "If positive: removes the points within this horizontal radius of the sensor (m). The "
+    "paper has 5 (sec. 4.2).");
+DEFINE_double(
+    ego_filter_m, 0,
+    "If positive: the ego blind spot filter with this radius (m). The paper's text has 5, "
+    "the file name of its data 6.");
 
 namespace icpscape {
 
 FilterOptions FiltersFromFlags() {
-  for (const auto& [flag, value] :
-       {std::pair("artificial_blind_spot_m", FLAGS_artificial_blind_spot_m),
-        std::pair("ego_filter_m", FLAGS_ego_filter_m),
-        std::pair("octree_voxel_m", FLAGS_octree_voxel_m)}) {
-    RequireFlag(value >= 0 && std::isfinite(value), flag, Number(value), "a length in m, or 0");
-  }
-  return {FLAGS_artificial_blind_spot_m, FLAGS_ego_filter_m, FLAGS_octree_voxel_m};
+  return {RequireAtLeastZero("artificial_blind_spot_m", FLAGS_artificial_blind_spot_m),
+          RequireAtLeastZero("ego_filter_m", FLAGS_ego_filter_m), OctreeVoxelFromFlags()};
 }
 
 }  // namespace icpscape

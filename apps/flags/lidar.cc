@@ -3,20 +3,23 @@
 
 #include <gflags/gflags.h>
 
-#include "src/common/error.h"
+#include "apps/flags/flag.h"
+
+static const icpscape::FlagGroup group(__FILE__, "Simulated lidar");
 
 DEFINE_int32(seed, 1,
              "Seed of all that is random: the simulated world and its lidar, and random starts.");
+static const icpscape::FlagMark seed_mark(&FLAGS_seed, icpscape::kShown);
 DEFINE_double(azimuth_step_deg, icpscape::LidarOptions().azimuth_step_deg,
-              "Simulated lidar: angle between two firings (degrees); KITTI's HDL-64E by default.");
+              "Angle between two firings (degrees); KITTI's HDL-64E by default.");
 DEFINE_double(range_noise_m, icpscape::LidarOptions().range_noise_m,
-              "Simulated lidar: standard deviation of a range between firings of one laser (m); "
+              "Standard deviation of a range between firings of one laser (m); "
               "measured on KITTI.");
 DEFINE_double(ring_bias_m, icpscape::LidarOptions().ring_bias_m,
-              "Simulated lidar: standard deviation of the lasers' constant range errors (m); the "
+              "Standard deviation of the lasers' constant range errors (m); the "
               "HDL-64E's data sheet and KITTI agree.");
 DEFINE_double(dropout, icpscape::LidarOptions().dropout,
-              "Simulated lidar: share of returns lost at random; measured on KITTI.");
+              "Share of returns lost at random; measured on KITTI.");
 
 namespace icpscape {
 
@@ -31,10 +34,18 @@ LidarOptions LidarFromFlags() {
 }
 
 std::uint64_t SeedFromFlags() {
-  if (FLAGS_seed < 0) {
-    throw UsageError("--seed=" + std::to_string(FLAGS_seed) + ": expected 0 or more.");
-  }
+  RequireFlag(FLAGS_seed >= 0, "seed", std::to_string(FLAGS_seed), "0 or more");
   return static_cast<std::uint64_t>(FLAGS_seed);
+}
+
+std::string LidarText() {
+  std::string text;
+  for (const Flag& flag : OwnFlags()) {
+    if (flag.file == __FILE__) {
+      text += (text.empty() ? "" : "; ") + flag.name + " " + flag.value;
+    }
+  }
+  return text;
 }
 
 }  // namespace icpscape

@@ -3,6 +3,7 @@
 #define ICPSCAPE_APPS_FLAGS_LIDAR_H_
 
 #include <cstdint>
+#include <string>
 
 #include "src/simulation/lidar.h"
 
@@ -14,6 +15,9 @@ LidarOptions LidarFromFlags();
 
 /// --seed. Throws UsageError for a negative one.
 std::uint64_t SeedFromFlags();
+
+/// All of these flags with their values, as text: simulated scans that differ differ in it.
+std::string LidarText();
 
 }  // namespace icpscape
 

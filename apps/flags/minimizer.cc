@@ -6,26 +6,29 @@
 #include <algorithm>
 #include <cmath>
 
+#include "apps/flags/flag.h"
 #include "apps/flags/objective.h"
 #include "apps/flags/run.h"
-#include "apps/run/app.h"
 #include "src/common/error.h"
 #include "src/common/text.h"
 
+static const icpscape::FlagGroup group(__FILE__, "Minimiser");
+
 DECLARE_string(loss);
 
-DEFINE_string(
-    weights, "",
-    "Weights of the metrics that are minimised together, separated by commas; none is 1 each.");
 DEFINE_string(reassociation, "every_step",
               "every_step (one Ceres step on frozen pairs, then match again) or every_evaluation "
               "(one Solve whose every pose is matched anew).");
-DEFINE_int32(max_iterations, 50, "Most steps.");
-DEFINE_double(min_step_m, 1e-4, "Converged when a step is shorter than this (m) ...");
-DEFINE_double(min_step_deg, 1e-3, "... and turns by less than this (degrees).");
+DEFINE_int32(max_iterations, 50, "Largest number of steps.");
+DEFINE_double(
+    min_step_m, 1e-4,
+    "Converged when a step is shorter than this (m) and turns by less than --min_step_deg.");
+DEFINE_double(
+    min_step_deg, 1e-3,
+    "Converged when a step turns by less than this (degrees) and is shorter than --min_step_m.");
 DEFINE_double(min_cost_change, 0,
-              "If positive: end where the cost changes by less than this share of it.");
-DEFINE_double(max_final_cost, 0, "If positive: end where the cost is this or less.");
+              "If positive: ends where the cost changes by less than this share of it.");
+DEFINE_double(max_final_cost, 0, "If positive: ends where the cost is this or less.");
 DEFINE_string(dof, "all",
               "Directions in which the source may move: all, planar (yaw, x, y: a vehicle), or "
               "some of roll,pitch,yaw,x,y,z, separated by commas.");
@@ -95,24 +98,8 @@ MinimizerOptions MinimizerFromFlags() {
   return options;
 }
 
-void CheckWeightFlags() {
-  const std::vector<std::string> weights = Split(FLAGS_weights);
-  RequireFlag(weights.empty() || weights.size() == MetricsFromFlags().size(), "weights",
-              FLAGS_weights, "one weight per metric");
-  for (const std::string& weight : weights) {
-    RequireFlag(ParseNumber(weight) > 0 && std::isfinite(ParseNumber(weight)), "weights",
-                FLAGS_weights, "positive numbers");
-  }
-}
-
-JointObjective JointFromFlags(const std::vector<Objective>& objectives) {
-  CheckWeightFlags();
-  const std::vector<std::string> weights = Split(FLAGS_weights);
-  std::vector<JointObjective::Term> terms;
-  for (std::size_t i = 0; i < objectives.size(); ++i) {
-    terms.push_back({&objectives[i], weights.empty() ? 1.0 : ParseNumber(weights[i])});
-  }
-  return JointObjective(std::move(terms));
+void RefuseMinimizerFlags(const std::string& expected) {
+  RequireUnchanged([](const Flag& flag) { return flag.file == __FILE__; }, expected);
 }
 
 }  // namespace icpscape

@@ -2,6 +2,8 @@
 #ifndef ICPSCAPE_APPS_FLAGS_MINIMIZER_H_
 #define ICPSCAPE_APPS_FLAGS_MINIMIZER_H_
 
+#include <string>
+
 #include "src/minimizer/minimizer.h"
 
 namespace icpscape {
@@ -11,9 +13,8 @@ namespace icpscape {
 /// --metrics, --loss or the matching flags cannot go with the way to re-associate.
 MinimizerOptions MinimizerFromFlags();
 
-/// The metrics of --metrics as the weighted sum that --weights says. Throws UsageError.
-JointObjective JointFromFlags(const std::vector<Objective>& objectives);
-void CheckWeightFlags();
+/// Throws UsageError where one of these flags is changed, for a program that does not minimise now.
+void RefuseMinimizerFlags(const std::string& expected);
 
 }  // namespace icpscape
 

@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "src/cloud/features.h"
+#include "apps/flags/features.h"
 #include "src/objective/objective_set.h"
 
 namespace icpscape {
@@ -13,11 +13,8 @@ namespace icpscape {
 /// --metrics, checked against the registry. Throws UsageError.
 std::vector<std::string> MetricsFromFlags();
 
-/// Matching, rejection, fits and loss. Throws UsageError.
+/// Matching, rejection, lines and patches, and loss. Throws UsageError.
 ObjectiveSetOptions ObjectiveSetFromFlags();
-
-/// Which points are edges and which are planar. Throws UsageError.
-FeatureOptions FeaturesFromFlags();
 
 }  // namespace icpscape
 

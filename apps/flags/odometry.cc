@@ -7,15 +7,17 @@
 #include <cmath>
 
 #include "apps/flags/filters.h"
+#include "apps/flags/flag.h"
+#include "apps/flags/joint.h"
 #include "apps/flags/minimizer.h"
 #include "apps/flags/objective.h"
 #include "apps/flags/preprocessing.h"
 #include "apps/flags/run.h"
-#include "apps/run/app.h"
 #include "src/common/text.h"
 
+static const icpscape::FlagGroup group(__FILE__, "Odometry");
+
 DECLARE_string(reassociation);
-DECLARE_string(weights);
 
 DEFINE_string(mode, "scan_to_map",
               "What a scan is registered to: scan_to_scan (the one before, the paper's), "
@@ -41,12 +43,12 @@ void SetDefaultsOfMode() {
   const std::vector<std::string> metrics = MetricsFromFlags();
   if (OdometryModeFromName(FLAGS_mode) == OdometryMode::kScanToMap) {
     if (std::none_of(metrics.begin(), metrics.end(), NeedsFeatures)) {
-      gflags::SetCommandLineOptionWithMode("voxel_m", "0.25", gflags::SET_FLAG_IF_DEFAULT);
+      SetFlagDefault("voxel_m", "0.25");
     }
     if (FLAGS_reassociation != "every_evaluation") {  // Which compares sums over all pairs.
-      gflags::SetCommandLineOptionWithMode("adaptive_gate_m", "2", gflags::SET_FLAG_IF_DEFAULT);
+      SetFlagDefault("adaptive_gate_m", "2");
     }
-    gflags::SetCommandLineOptionWithMode("loss", "huber", gflags::SET_FLAG_IF_DEFAULT);
+    SetFlagDefault("loss", "huber");
   }
 }
 
@@ -54,10 +56,7 @@ OdometryOptions OdometryFromFlags() {
   OdometryOptions options;
   options.mode = OdometryModeFromName(FLAGS_mode);
   options.metrics = MetricsFromFlags();
-  CheckWeightFlags();
-  for (const std::string& weight : Split(FLAGS_weights)) {
-    options.weights.push_back(ParseNumber(weight));
-  }
+  options.weights = WeightsFromFlags();
   options.preprocessing = PreprocessingFromFlags(options.metrics);
   options.filters = FiltersFromFlags();
   options.objective = ObjectiveSetFromFlags();

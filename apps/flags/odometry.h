@@ -6,8 +6,7 @@
 
 namespace icpscape {
 
-/// Sets the flags that were not given to what suits --mode and --metrics; then they are recorded as
-/// if they had been.
+/// Gives flags the defaults that suit --mode and --metrics. What the command line gives stays.
 void SetDefaultsOfMode();
 
 /// All that an odometry is made of. Throws UsageError.

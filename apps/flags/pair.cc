@@ -27,18 +27,30 @@
 #include "src/io/transform.h"
 #include "src/simulation/scenes.h"
 
+static const icpscape::FlagGroup group(__FILE__, "Input: a pair of scans");
+
 DECLARE_int32(seed);
 DEFINE_string(scene, "",
               "Simulated scene: straight_street, right_turn, highway or highway_overtaking, by "
               "--seed; needs no data.");
+static const icpscape::FlagMark scene_mark(&FLAGS_scene, icpscape::kShown);
 DEFINE_string(kitti_root, "", "Folder of the KITTI odometry data (with sequences/ and poses/).");
+static const icpscape::FlagMark kitti_root_mark(&FLAGS_kitti_root, icpscape::kAside);
 DEFINE_string(sequence, "00", "KITTI sequence.");
+static const icpscape::FlagMark sequence_mark(&FLAGS_sequence, icpscape::kShown);
 DEFINE_int32(frame, -1, "KITTI scan to register: the source.");
+static const icpscape::FlagMark frame_mark(&FLAGS_frame, icpscape::kShown);
 DEFINE_int32(target_frame, -1, "KITTI scan to register to; -1 is the one before --frame.");
+static const icpscape::FlagMark target_frame_mark(&FLAGS_target_frame, icpscape::kShown);
 DEFINE_string(source, "", "Source cloud (.bin, .pcd or .ply), instead of --kitti_root.");
+static const icpscape::FlagMark source_mark(&FLAGS_source, icpscape::kShown);
 DEFINE_string(target, "", "Target cloud, with --source.");
+static const icpscape::FlagMark target_mark(&FLAGS_target, icpscape::kShown);
 DEFINE_string(ground_truth, "", "Text file of the true 4x4 T_target_source, with --source.");
+static const icpscape::FlagMark ground_truth_mark(&FLAGS_ground_truth, icpscape::kShown);
 DEFINE_bool(reverse, false, "Swap source and target, and invert what is known about their motion.");
+static const icpscape::FlagMark reverse_mark(&FLAGS_reverse,
+                                             icpscape::kShown | icpscape::kNotOfDraws);
 DEFINE_string(
     initial, "identity",
     "Pose at u = 0 and start of register: identity (paper), previous_motion, or the path of a "

@@ -14,6 +14,9 @@
 #include "src/filtering/filter_statistics.h"
 #include "src/io/transform.h"
 
+static const icpscape::FlagGroup group(__FILE__, "Estimate of the motion for filters",
+                                       icpscape::kNotOfDraws);
+
 DEFINE_string(filter_estimate, "previous_motion",
               "T_e of the filters: previous_motion (paper), identity, ground_truth, or the path of "
               "a text file of the 4x4 T_target_source.");

@@ -3,11 +3,13 @@
 
 #include <gflags/gflags.h>
 
-#include "apps/run/app.h"
+#include "apps/flags/flag.h"
 #include "src/common/parallel.h"
-#include "src/io/output.h"
 
-DEFINE_int32(threads, 0, "Threads; 0 is all of the machine. Results do not depend on it.");
+static const icpscape::FlagGroup group(__FILE__, "Run", icpscape::kAside);
+
+DEFINE_int32(threads, 0,
+             "Number of threads; 0 uses all of the machine. Results do not depend on it.");
 DEFINE_string(out, "out", "Folder for the results.");
 
 namespace icpscape {
@@ -18,11 +20,8 @@ int ThreadsFromFlags() {
   return FLAGS_threads > 0 ? FLAGS_threads : HardwareThreads();
 }
 
-std::filesystem::path OutputFolder() {
+std::filesystem::path OutFromFlags() {
   RequireFlag(!FLAGS_out.empty(), "out", FLAGS_out, "a folder");
-  PrepareOutputFolder(FLAGS_out);
-  // Written last: a folder with a manifest is a finished run.
-  std::filesystem::remove(std::filesystem::path(FLAGS_out) / "manifest.json");
   return FLAGS_out;
 }
 

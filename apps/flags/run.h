@@ -6,12 +6,11 @@
 
 namespace icpscape {
 
-/// --threads, or all of the machine where it is 0. Throws UsageError.
+/// --threads, or the number of all threads of the machine where it is 0. Throws UsageError.
 int ThreadsFromFlags();
 
-/// --out, created and proved writable, without a manifest: that is written last. Throws UsageError,
-/// InputError.
-std::filesystem::path OutputFolder();
+/// --out. Throws UsageError where it is empty.
+std::filesystem::path OutFromFlags();
 
 }  // namespace icpscape
 

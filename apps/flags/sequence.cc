@@ -10,17 +10,24 @@
 #include "src/io/kitti.h"
 #include "src/io/trajectory.h"
 
+static const icpscape::FlagGroup group(__FILE__, "Input: a drive");
+
 DEFINE_string(kitti_root, "", "Folder of the KITTI odometry data (with sequences/ and poses/).");
+static const icpscape::FlagMark kitti_root_mark(&FLAGS_kitti_root, icpscape::kAside);
 DEFINE_string(sequence, "00", "KITTI sequence, with --kitti_root.");
+static const icpscape::FlagMark sequence_mark(&FLAGS_sequence, icpscape::kShown);
 DEFINE_string(scans, "",
               "Or: a folder of .bin, .pcd or .ply scans, or a raw drive of KITTI's (a folder with "
               "velodyne_points/).");
+static const icpscape::FlagMark scans_mark(&FLAGS_scans, icpscape::kAside);
 DEFINE_string(
     ground_truth, "",
     "With --scans: trajectory of the lidar, KITTI's or TUM's format, a pose for each scan "
     "of the folder.");
+static const icpscape::FlagMark ground_truth_mark(&FLAGS_ground_truth, icpscape::kAside);
 DEFINE_string(frames, "", "First and last scan, as in 0:99; none is all.");
 DEFINE_bool(reverse, false, "Drive backwards: the last scan comes first.");
+static const icpscape::FlagMark reverse_mark(&FLAGS_reverse, icpscape::kShown);
 
 namespace icpscape {
 

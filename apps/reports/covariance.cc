@@ -6,12 +6,9 @@
 #include <cmath>
 #include <cstdio>
 #include <limits>
-#include <optional>
 #include <utility>
 
-#include "src/common/error.h"
 #include "src/common/text.h"
-#include "src/covariance/degeneracy.h"
 
 namespace icpscape {
 namespace {
@@ -91,38 +88,27 @@ Table CalibrationTable() {
   return Table(columns);
 }
 
-void ReportCovariances(const std::string& metric, const CovarianceSums& sums,
-                       const CovarianceOptions& options, Table* table) {
+void ReportCovariances(const std::string& metric, const std::vector<EstimatedCovariance>& all,
+                       Table* table) {
   std::printf("standard deviations   rx (mdeg)       ry       rz  tx (mm)       ty       tz\n");
-  const bool determined = EstimateCovariance(Estimator::kGaussNewton, sums, options).has_value();
-  for (const Estimator estimator : AllEstimators()) {
-    const std::optional<Mat6> covariance = EstimateCovariance(estimator, sums, options);
+  for (const EstimatedCovariance& entry : all) {
+    const char* name = EstimatorName(entry.estimator);
     const Mat6 values =
-        covariance ? *covariance : Mat6::Constant(std::numeric_limits<double>::quiet_NaN());
+        entry.covariance.value_or(Mat6(Mat6::Constant(std::numeric_limits<double>::quiet_NaN())));
     const Vec6 deviation = values.diagonal().cwiseSqrt();
-    if (covariance) {
-      PrintDeviations(EstimatorName(estimator), deviation);
+    if (entry.covariance) {
+      PrintDeviations(name, deviation);
     } else {
-      const char* reason = "there is too little to estimate it from.";
-      if (!determined) {
-        reason = "the pairs do not determine all six degrees of freedom.";
-      } else if (estimator == Estimator::kCensiRingBias && !sums.ring_bias) {
-        reason = "the points have no rings.";
-      } else if (estimator == Estimator::kSandwichRematched && sums.clusters > 6) {
-        reason = "where the pairs follow the pose, the cost has no minimum here.";
-      }
-      std::printf("  %-19s none: %s\n", EstimatorName(estimator), reason);
+      std::printf("  %-19s none: %s.\n", name, entry.reason.c_str());
     }
-    std::vector<std::string> row = {metric, EstimatorName(estimator)};
+    std::vector<std::string> row = {metric, name};
     AppendNumbers(deviation, &row);
     AppendUpperTriangle(values, &row);
     table->AddRow(std::move(row));
   }
 }
 
-void ReportDirections(const std::string& metric, const Mat6& hessian, double length_scale_m,
-                      Table* table) {
-  const EigenDirections eigen = EigenDirectionsOf(hessian, length_scale_m);
+void ReportDirections(const std::string& metric, const EigenDirections& eigen, Table* table) {
   std::printf("eigenvalues of H in [L omega; v], L = %g m:", eigen.length_scale_m);
   for (int i = 0; i < 6; ++i) {
     std::printf(" %.4g", eigen.eigenvalues[i]);
@@ -180,35 +166,22 @@ void ListDraws(const std::string& metric, const std::vector<DrawResult>& draws, 
 
 }  // namespace
 
-CovarianceReport::CovarianceReport(const CovarianceOptions& options, double length_scale_m)
-    : options_(options),
-      length_scale_m_(length_scale_m),
-      covariances_(CovarianceTable()),
+CovarianceReport::CovarianceReport()
+    : covariances_(CovarianceTable()),
       directions_(DirectionTable()),
       verdicts_(VerdictTable()),
       draws_(DrawTable()),
       calibration_(CalibrationTable()) {}
 
-void CovarianceReport::AddPair(const Objective& objective, const SE3d& T_initial, int threads,
-                               Manifest* manifest) {
-  MinimizerOptions minimizer = PreciseMinimizer();
-  minimizer.threads = threads;
-  const MinimizerSummary summary = Minimize(objective, T_initial, minimizer);
-  const std::string& metric = objective.metric();
-  if (!summary.Usable()) {
-    throw ComputationError(metric + ": " + summary.message);
-  }
-  const SE3d& T = summary.T_target_source();
-  const Matches matches = objective.Match(T, threads);
-  const CovarianceSums sums = SumForCovariance(objective, T, options_, threads);
+void CovarianceReport::AddPair(const std::string& metric, const RegistrationUncertainty& result,
+                               double cluster_m, Manifest* manifest) {
+  const MinimizerSummary& summary = result.registration;
   std::printf("\n%s: %s after %zu steps; %ld pairs, %ld cubes of %g m\n", metric.c_str(),
-              TerminationName(summary.termination), summary.iterates.size() - 1, sums.pairs,
-              sums.clusters, options_.cluster_m);
-  ReportCovariances(metric, sums, options_, &covariances_);
-  ReportDirections(metric, sums.gauss_newton, length_scale_m_, &directions_);
-  ReportVerdicts(metric,
-                 JudgeDegeneracy(sums.gauss_newton, PlaneConstraintsOf(objective, T, matches)),
-                 &verdicts_, manifest);
+              TerminationName(summary.termination), summary.iterates.size() - 1, result.sums.pairs,
+              result.sums.clusters, cluster_m);
+  ReportCovariances(metric, result.covariances, &covariances_);
+  ReportDirections(metric, result.directions, &directions_);
+  ReportVerdicts(metric, result.verdicts, &verdicts_, manifest);
   const std::string warning = CovarianceWarning(metric);
   if (!warning.empty()) {
     std::printf("warning: %s\n", warning.c_str());
@@ -278,16 +251,16 @@ void CovarianceReport::AddDraws(const std::string& metric, const std::vector<Dra
       "  about the mean)\n");
 }
 
-void CovarianceReport::WritePair(const std::filesystem::path& out) const {
-  covariances_.WriteCsv(out / "covariance.csv");
-  directions_.WriteCsv(out / "directions.csv");
-  verdicts_.WriteCsv(out / "verdicts.csv");
+void CovarianceReport::WritePair(Run* run) const {
+  covariances_.WriteCsv(run->File("covariance.csv"));
+  directions_.WriteCsv(run->File("directions.csv"));
+  verdicts_.WriteCsv(run->File("verdicts.csv"));
 }
 
-void CovarianceReport::WriteDraws(const std::filesystem::path& out) const {
-  draws_.WriteCsv(out / "draws.csv");
-  calibration_.WriteCsv(out / "calibration.csv");
-  bias_.WriteCsv(out / "bias.csv");
+void CovarianceReport::WriteDraws(Run* run) const {
+  draws_.WriteCsv(run->File("draws.csv"));
+  calibration_.WriteCsv(run->File("calibration.csv"));
+  bias_.WriteCsv(run->File("bias.csv"));
 }
 
 }  // namespace icpscape

@@ -3,6 +3,9 @@
 
 #include <cmath>
 #include <cstdio>
+#include <limits>
+#include <string>
+#include <utility>
 
 #include "src/common/text.h"
 #include "src/io/output.h"
@@ -13,64 +16,86 @@ namespace {
 
 constexpr double kDegrees = 180 / M_PI;
 
-std::vector<std::string> Row(const std::string& metric, std::size_t index, const Iterate& iterate,
-                             const PathProjection& projection) {
-  std::vector<std::string> row = {metric,
-                                  std::to_string(index),
-                                  Number(projection.u),
-                                  Number(projection.off_path_m),
-                                  Number(projection.off_path_rad * kDegrees),
-                                  Number(iterate.rmse),
-                                  Number(iterate.cost),
-                                  std::to_string(iterate.n),
-                                  Number(iterate.step_m),
-                                  Number(iterate.step_rad * kDegrees)};
-  double x[7];
-  iterate.T_target_source.ToParameters(x);
-  for (const double value : x) {
-    row.push_back(Number(value));
-  }
-  return row;
+PathProjection Project(const SE3d& T, const PathSection& section) {
+  return ProjectOntoPath(section.path, T, section.u_min, section.u_max, kRotationLength_m);
 }
 
 }  // namespace
 
-std::vector<MetricIterates> MinimizeEach(const std::vector<Objective>& objectives,
-                                         const SE3d& T_initial, const MinimizerOptions& options) {
-  std::vector<MetricIterates> all;
-  for (const Objective& objective : objectives) {
-    all.push_back(
-        {objective.metric(), Minimize(JointObjective({{&objective, 1.0}}), T_initial, options)});
+void WriteIterates(const std::vector<MetricIterates>& all,
+                   const std::optional<PathSection>& section, Run* run) {
+  constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
+  Table csv({"metric",
+             "iteration",
+             "u",
+             "off_path_m",
+             "off_path_deg",
+             "cost",
+             "rmse",
+             "n",
+             "gradient_norm",
+             "smallest_eigenvalue",
+             "largest_eigenvalue",
+             "step_m",
+             "step_deg",
+             "time_s",
+             "qx",
+             "qy",
+             "qz",
+             "qw",
+             "tx_m",
+             "ty_m",
+             "tz_m"});
+  for (const auto& [metric, summary] : all) {
+    for (std::size_t i = 0; i < summary.iterates.size(); ++i) {
+      const Iterate& it = summary.iterates[i];
+      const PathProjection place =
+          section ? Project(it.T_target_source, *section) : PathProjection{kNone, kNone, kNone};
+      std::vector<std::string> row = {metric, std::to_string(i)};
+      for (const double value :
+           {place.u, place.off_path_m, place.off_path_rad * kDegrees, it.cost, it.rmse,
+            static_cast<double>(it.n), it.gradient_norm, it.smallest_eigenvalue,
+            it.largest_eigenvalue, it.step_m, it.step_rad * kDegrees, it.time_s}) {
+        row.push_back(Number(value));
+      }
+      double x[7];
+      it.T_target_source.ToParameters(x);
+      for (const double value : x) {
+        row.push_back(Number(value));
+      }
+      csv.AddRow(std::move(row));
+    }
   }
-  return all;
+  csv.WriteCsv(run->File("iterates.csv"));
 }
 
-void ReportIterates(const std::vector<MetricIterates>& all, const Path& path,
-                    const CurveOptions& curve, const std::filesystem::path& out,
-                    Manifest* manifest) {
-  Table csv({"metric", "iteration", "u", "off_path_m", "off_path_deg", "rmse", "cost", "n",
-             "step_m", "step_deg", "qx", "qy", "qz", "qw", "tx_m", "ty_m", "tz_m"});
+void PrintIterates(const MinimizerSummary& summary) {
+  std::printf("%4s %22s %12s %8s %11s %11s %11s %8s\n", "iter", "cost", "RMSE", "n", "eig min/max",
+              "step (m)", "step (deg)", "time (s)");
+  for (std::size_t i = 0; i < summary.iterates.size(); ++i) {
+    const Iterate& it = summary.iterates[i];
+    std::printf("%4zu %22.15g %12.8f %8ld %11.3e %11.3e %11.3e %8.3f\n", i, it.cost, it.rmse, it.n,
+                it.smallest_eigenvalue / it.largest_eigenvalue, it.step_m, it.step_rad * kDegrees,
+                it.time_s);
+  }
+}
+
+void ReportEnds(const std::vector<MetricIterates>& all, const PathSection& section,
+                Manifest* manifest) {
   std::printf("%-18s %6s %8s %12s %14s  %s\n", "minimised", "steps", "ends at u", "off path (m)",
               "off path (deg)", "ends with");
   for (const auto& [metric, summary] : all) {
-    PathProjection projection;
-    for (std::size_t i = 0; i < summary.iterates.size(); ++i) {
-      const Iterate& iterate = summary.iterates[i];
-      projection = ProjectOntoPath(path, iterate.T_target_source, curve.u_min, curve.u_max,
-                                   kRotationLength_m);
-      csv.AddRow(Row(metric, i, iterate, projection));
-    }
     if (summary.iterates.empty()) {
       std::printf("%-18s: %s\n", metric.c_str(), summary.message.c_str());
       continue;
     }
+    const PathProjection end = Project(summary.T_target_source(), section);
     std::printf("%-18s %6zu %9.4f %12.4f %14.4f  %s\n", metric.c_str(), summary.iterates.size() - 1,
-                projection.u, projection.off_path_m, projection.off_path_rad * kDegrees,
+                end.u, end.off_path_m, end.off_path_rad * kDegrees,
                 TerminationName(summary.termination));
-    manifest->SetResult("iterates_end_u_" + metric, projection.u);
-    manifest->SetResult("iterates_end_off_path_m_" + metric, projection.off_path_m);
+    manifest->SetResult("iterates_end_u_" + metric, end.u);
+    manifest->SetResult("iterates_end_off_path_m_" + metric, end.off_path_m);
   }
-  csv.WriteCsv(out / "iterates.csv");
 }
 
 }  // namespace icpscape

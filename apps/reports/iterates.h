@@ -2,33 +2,34 @@
 #ifndef ICPSCAPE_APPS_REPORTS_ITERATES_H_
 #define ICPSCAPE_APPS_REPORTS_ITERATES_H_
 
-#include <filesystem>
-#include <string>
+#include <optional>
 #include <vector>
 
-#include "src/io/manifest.h"
-#include "src/landscape/curve.h"
-#include "src/minimizer/minimizer.h"
+#include "apps/run/run.h"
+#include "src/landscape/path.h"
+#include "src/minimizer/minimize_each.h"
 
 namespace icpscape {
 
-/// The closed loop of one metric, beside its curve.
-struct MetricIterates {
-  std::string metric;
-  MinimizerSummary summary;
+/// The part of a path along which iterates have their places.
+struct PathSection {
+  Path path;
+  double u_min = 0;
+  double u_max = 1;
 };
 
-/// Minimises each objective by itself from the start of the path. One whose pairs give out keeps
-/// the iterates up to there.
-std::vector<MetricIterates> MinimizeEach(const std::vector<Objective>& objectives,
-                                         const SE3d& T_initial, const MinimizerOptions& options);
+/// Writes iterates.csv, every iterate of every metric: its nearest u on the section and its
+/// distance from the path there (see PathProjection; rotations count kRotationLength_m; nan without
+/// a section), the objective's values, the step before it, and its pose.
+void WriteIterates(const std::vector<MetricIterates>& all,
+                   const std::optional<PathSection>& section, Run* run);
 
-/// Prints and records where each metric's iterates end, and writes iterates.csv: every iterate at
-/// its nearest u within the curve's interval, with its distance from the path there (see
-/// PathProjection; rotations count kRotationLength_m).
-void ReportIterates(const std::vector<MetricIterates>& all, const Path& path,
-                    const CurveOptions& curve, const std::filesystem::path& out,
-                    Manifest* manifest);
+/// Prints the iterates of one minimisation, one a line.
+void PrintIterates(const MinimizerSummary& summary);
+
+/// Prints and records where on the section each metric's iterates end.
+void ReportEnds(const std::vector<MetricIterates>& all, const PathSection& section,
+                Manifest* manifest);
 
 }  // namespace icpscape
 

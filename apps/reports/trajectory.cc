@@ -7,8 +7,7 @@
 #include <optional>
 #include <utility>
 
-#include "apps/run/app.h"
-#include "src/common/error.h"
+#include "apps/flags/flag.h"
 #include "src/common/text.h"
 #include "src/io/output.h"
 
@@ -43,7 +42,7 @@ class SummaryTable {
                  Number(kDegrees * mean->rotation_rad_per_m)});
   }
 
-  void Write(const std::filesystem::path& path) const { csv_.WriteCsv(path); }
+  void Write(Run* run) const { csv_.WriteCsv(run->File("summary.csv")); }
 
  private:
   Table csv_{{"sequence", "subset", "value", "segments", "t_err_percent", "r_err_deg_per_100m",
@@ -69,8 +68,8 @@ void AddByLengthAndSpeed(const std::string& sequence, const std::vector<SegmentE
   }
 }
 
-void ReportSegmentErrors(const std::vector<NamedTrajectory>& trajectories,
-                         const std::filesystem::path& out, Manifest* manifest) {
+void ReportSegmentErrors(const std::vector<NamedTrajectory>& trajectories, Run* run) {
+  Manifest* const manifest = run->manifest();
   constexpr double kAll = std::numeric_limits<double>::quiet_NaN();
   Table segments({"sequence", "first_frame", "last_frame", "length_m", "speed_mps", "t_err_percent",
                   "r_err_deg_per_m"});
@@ -108,8 +107,8 @@ void ReportSegmentErrors(const std::vector<NamedTrajectory>& trajectories,
     manifest->SetResult("r_err_deg_per_100m_mean_of_sequences",
                         DegreesPer100M(*MeanOfMeans(means)));
   }
-  segments.WriteCsv(out / "errors.csv");
-  summary.Write(out / "summary.csv");
+  segments.WriteCsv(run->File("errors.csv"));
+  summary.Write(run);
 }
 
 // Rows of pose_errors.csv, also on the screen.
@@ -133,8 +132,8 @@ void AddPoseErrors(const std::string& sequence, const std::string& error,
   csv->AddRow(std::move(row));
 }
 
-void ReportPoseErrors(const std::vector<NamedTrajectory>& trajectories, int rpe_frames,
-                      const std::filesystem::path& out, Manifest* manifest) {
+void ReportPoseErrors(const std::vector<NamedTrajectory>& trajectories, int rpe_frames, Run* run) {
+  Manifest* const manifest = run->manifest();
   Table csv({"sequence", "error", "alignment", "rmse_m", "mean_m", "median_m", "max_m", "rmse_deg",
              "mean_deg", "median_deg", "max_deg"});
   std::printf("\n%-37s %9s %9s %9s %9s   %9s %9s %9s %9s\n", "sequence, error", "RMSE (m)", "mean",
@@ -159,25 +158,25 @@ void ReportPoseErrors(const std::vector<NamedTrajectory>& trajectories, int rpe_
     AddPoseErrors(name, "RPE_" + std::to_string(rpe_frames), "none", errors, &csv);
     manifest->SetResult("rpe_rmse_m_" + name, Summarize(errors.translation_m).rmse);
   }
-  csv.WriteCsv(out / "pose_errors.csv");
+  csv.WriteCsv(run->File("pose_errors.csv"));
 }
 
 }  // namespace
 
 void ReportTrajectoryErrors(const std::vector<NamedTrajectory>& trajectories, int rpe_frames,
-                            const std::filesystem::path& out, Manifest* manifest) {
+                            Run* run) {
   for (const NamedTrajectory& trajectory : trajectories) {
     const std::size_t poses = trajectory.pair.truth.size();
     RequireFlag(static_cast<std::size_t>(rpe_frames) < poses, "rpe_frames",
                 std::to_string(rpe_frames),
                 "fewer than the " + std::to_string(poses) + " poses of " + trajectory.name);
   }
-  ReportSegmentErrors(trajectories, out, manifest);
-  ReportPoseErrors(trajectories, rpe_frames, out, manifest);
+  ReportSegmentErrors(trajectories, run);
+  ReportPoseErrors(trajectories, rpe_frames, run);
 }
 
-bool DrawTrajectories(const std::vector<NamedTrajectory>& trajectories, const std::string& title,
-                      const std::filesystem::path& out) {
+void DrawTrajectories(const std::vector<NamedTrajectory>& trajectories, const std::string& title,
+                      Run* run) {
   constexpr double kUnknown = std::numeric_limits<double>::quiet_NaN();
   Table csv({"sequence", "frame", "path_m", "x_m", "y_m", "z_m", "truth_x_m", "truth_y_m",
              "truth_z_m", "error_m", "error_deg"});
@@ -195,9 +194,9 @@ bool DrawTrajectories(const std::vector<NamedTrajectory>& trajectories, const st
                   Number(has_truth ? kDegrees * errors.rotation_rad[i] : kUnknown)});
     }
   }
-  csv.WriteCsv(out / "trajectory.csv");
-  return RunPlotScript("plot_trajectory.py", {(out / "trajectory.csv").string(), "--out",
-                                              (out / "trajectory").string(), "--title", title});
+  const std::filesystem::path table = run->File("trajectory.csv");
+  csv.WriteCsv(table);
+  run->Draw("plot_trajectory.py", {table.string(), "--title", title}, "trajectory");
 }
 
 }  // namespace icpscape

@@ -2,11 +2,10 @@
 #ifndef ICPSCAPE_APPS_REPORTS_TRAJECTORY_H_
 #define ICPSCAPE_APPS_REPORTS_TRAJECTORY_H_
 
-#include <filesystem>
 #include <string>
 #include <vector>
 
-#include "src/io/manifest.h"
+#include "apps/run/run.h"
 #include "src/odometry/trajectory_errors.h"
 
 namespace icpscape {
@@ -23,13 +22,13 @@ struct NamedTrajectory {
 /// pose_errors.csv, ATE by alignment and RPE over `rpe_frames`. What a trajectory is too short for
 /// is said in one sentence. Throws UsageError where one has no successor `rpe_frames` on.
 void ReportTrajectoryErrors(const std::vector<NamedTrajectory>& trajectories, int rpe_frames,
-                            const std::filesystem::path& out, Manifest* manifest);
+                            Run* run);
 
 /// Writes trajectory.csv and draws it as trajectory.svg and .png: positions, aligned by the first
 /// pose, and the distance from the truth over the path; without truth the positions alone (nan in
-/// the columns of the truth). Returns whether there are figures.
-bool DrawTrajectories(const std::vector<NamedTrajectory>& trajectories, const std::string& title,
-                      const std::filesystem::path& out);
+/// the columns of the truth).
+void DrawTrajectories(const std::vector<NamedTrajectory>& trajectories, const std::string& title,
+                      Run* run);
 
 }  // namespace icpscape
 

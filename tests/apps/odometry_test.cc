@@ -146,9 +146,9 @@ TEST(OdometryCommandLine, IsRefusedWhereItIsWrong) {
   refuse({"--map_scans=-1"}, "--map_scans=-1: expected 0 or more");
   refuse({"--map_every=0"}, "--map_every=0: expected at least 1");
   refuse({"--adaptive_gate_m=nan"}, "--adaptive_gate_m=nan: expected a length in m, or 0");
-  refuse({"--write_map_voxel_m=-1"}, "--write_map_voxel_m=-1");
+  refuse({"--write_map_voxel_m=-1"}, "--write_map_voxel_m=-1: expected a number of at least 0");
   refuse({"--prediction=crystal_ball"}, "expected one of constant_velocity, none");
-  refuse({"--frames=5:1"}, "--frames=5:1: expected FIRST:LAST with 0 <= FIRST <= LAST");
+  refuse({"--frames=5:1"}, "frames=5:1: expected FIRST:LAST with 0 <= FIRST <= LAST");
   refuse({"--scans=no_scans"}, "--scans=DIR, and not both");
   refuse({"--ground_truth=a.txt"}, "--ground_truth=a.txt: expected --scans with it");
   refuse({"--metrics=edge_to_line", "--voxel_m=0.25"},
