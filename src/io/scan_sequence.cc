@@ -141,7 +141,7 @@ FrameRange FrameRangeFromText(const std::string& text) {
     good = last_error == std::errc() && rest == end;
   }
   if (!good || range.first < 0 || range.last < range.first) {
-    throw UsageError("--frames=" + text +
+    throw UsageError("frames=" + text +
                      ": expected FIRST:LAST with 0 <= FIRST <= LAST, as in 0:99.");
   }
   return range;

@@ -16,7 +16,7 @@ struct FrameRange {
   int first = 0;
   int last = -1;  ///< -1: to the end.
 };
-/// From "FIRST:LAST", or all from "". Throws UsageError that names the flag --frames.
+/// From "FIRST:LAST", or all from "". Throws UsageError.
 FrameRange FrameRangeFromText(const std::string& text);
 
 /// The scans of a drive in their order, and what is known about them.

@@ -70,7 +70,7 @@ const Motion& FindMotion(const std::string& scene) {
       return motion;
     }
   }
-  throw UsageError("--scene=" + scene + ": no such scene; expected one of " + Join(SceneNames()) +
+  throw UsageError("scene " + scene + ": no such scene; expected one of " + Join(SceneNames()) +
                    ".");
 }
 

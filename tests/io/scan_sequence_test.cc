@@ -68,7 +68,7 @@ TEST(FrameRange, IsReadFromText) {
   for (const char* text : {"5:1", "3", ":", "3:", ":3", "-1:3", "0:-1", "a:b", "0:3:5", "0:3 ",
                            " 0:3", "0.5:3", "0:99999999999", "0,3"}) {
     EXPECT_EQ(MessageOf<UsageError>([&] { FrameRangeFromText(text); }),
-              std::string("--frames=") + text +
+              std::string("frames=") + text +
                   ": expected FIRST:LAST with 0 <= FIRST <= LAST, as in 0:99.");
   }
 }
