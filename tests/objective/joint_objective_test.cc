@@ -42,19 +42,43 @@ TEST(JointObjective, IsTheWeightedSumAndWhatCeresSees) {
   const SE3d T(Mat3::Identity(), Vec3(0.05, 0.02, 0));
   const MatchesByMatcher matches = joint.Match(T, 1);
   const Evaluation sum = joint.Evaluate(T, matches, 1);
-  double cost = 0;
-  Vec6 gradient = Vec6::Zero();
+  double cost = 0, squared = 0, epsilon = 0;
+  Vec6 gradient = Vec6::Zero(), epsilon_gradient = Vec6::Zero();
+  Mat6 hessian = Mat6::Zero();
   long n = 0;
   const double weights[] = {2, 0.5, 1};
   for (std::size_t k = 0; k < 3; ++k) {
     const Evaluation part = o[k].Evaluate(T, 1);
     cost += weights[k] * part.sums.cost;
     gradient += weights[k] * part.sums.gradient;
+    hessian += weights[k] * part.sums.Hessian();
+    squared += weights[k] * part.sum_squared;
+    epsilon += weights[k] * part.epsilon;
+    epsilon_gradient += weights[k] * part.epsilon_gradient;
     n += part.n();
   }
-  EXPECT_NEAR(sum.sums.cost, cost, 1e-12 * cost);
-  EXPECT_LE((sum.sums.gradient - gradient).norm(), 1e-12 * gradient.norm());
-  EXPECT_EQ(sum.n(), n);
+  const auto expect_sum = [&](const Evaluation& evaluation) {
+    EXPECT_NEAR(evaluation.sums.cost, cost, 1e-12 * cost);
+    EXPECT_LE((evaluation.sums.gradient - gradient).norm(), 1e-12 * gradient.norm());
+    EXPECT_LE((evaluation.sums.Hessian() - hessian).norm(), 1e-12 * hessian.norm());
+    EXPECT_NEAR(evaluation.sum_squared, squared, 1e-12 * squared);
+    EXPECT_NEAR(evaluation.epsilon, epsilon, 1e-12 * epsilon);
+    EXPECT_LE((evaluation.epsilon_gradient - epsilon_gradient).norm(),
+              1e-12 * epsilon_gradient.norm());
+    EXPECT_EQ(evaluation.n(), n);
+    EXPECT_FALSE(evaluation.sums.upward_loss);
+  };
+  expect_sum(sum);
+  MatchesByMatcher kept;
+  expect_sum(joint.Evaluate(T, 2, &kept));
+  ASSERT_EQ(kept.size(), matches.size());
+  for (const auto& [matcher, found] : matches) {
+    EXPECT_EQ(kept.at(matcher).target_index, found.target_index);
+  }
+  // What was not asked for stays zero.
+  EXPECT_EQ(joint.Evaluate(T, matches, 1, Derivatives::kGradient).sums.gradient, sum.sums.gradient);
+  EXPECT_EQ(joint.Evaluate(T, matches, 1, Derivatives::kGradient).sums.hessian, Mat6::Zero());
+  EXPECT_EQ(joint.Evaluate(T, matches, 1, Derivatives::kNone).sums.gradient, Vec6::Zero());
 
   double x[7];
   T.ToParameters(x);
@@ -68,6 +92,22 @@ TEST(JointObjective, IsTheWeightedSumAndWhatCeresSees) {
   ASSERT_TRUE(problem.Evaluate({}, &ceres_cost, nullptr, &ceres_gradient, nullptr));
   EXPECT_NEAR(ceres_cost, cost, 1e-12 * cost);
   EXPECT_LE((Eigen::Map<const Vec6>(ceres_gradient.data()) - gradient).norm(), 1e-9);
+}
+
+// Whichever term it is, and whichever of its pairs.
+TEST(JointObjective, KnowsAnUpwardLossOfAnyTerm) {
+  const RoomPair room;
+  const ClosestPointMatcher matcher(room.source, room.target);
+  const Objective huber("point_to_plane", matcher, MakeLoss("huber", 0.1));
+  const Objective tolerant("point_to_point", matcher, MakeLoss("tolerant", 0.1));
+  const auto expect = [&](const JointObjective& joint, bool upward) {
+    EXPECT_EQ(joint.HasUpwardLoss(), upward) << joint.Name();
+    EXPECT_EQ(joint.Evaluate(SE3d(), 1).sums.upward_loss, upward) << joint.Name();
+  };
+  expect(JointObjective({{&huber, 0.5}, {&tolerant, 2}}), true);
+  expect(JointObjective({{&tolerant, 0.5}, {&huber, 2}}), true);
+  expect(JointObjective({{&huber, 0.5}, {&huber, 2}}), false);
+  expect(tolerant, true);
 }
 
 TEST(JointObjective, EdgesAndPlanesTogetherFindTheMotion) {

@@ -80,6 +80,40 @@ TEST(ObjectiveSet, IsTheSameOverCloudsThatAreSearchableAlready) {
   }
 }
 
+// Every kind of metric takes its own options, and all the loss: with a gate that lets nothing
+// through, the metrics of that kind alone have no pairs.
+TEST(ObjectiveSet, GivesEachKindOfMetricItsOwnOptions) {
+  const testing_support::MovedRoom& room = TheScene().room;
+  const std::vector<std::string> metrics = {"point_to_point", "edge_to_line", "planar_to_patch"};
+  for (std::size_t gated = 0; gated < 3; ++gated) {
+    ObjectiveSetOptions options = Lenient();
+    const double gate = 1e-7;
+    (gated == 0   ? options.matching.max_distance_m
+     : gated == 1 ? options.line.max_neighbor_distance_m
+                  : options.patch.max_neighbor_distance_m) = gate;
+    options.line.triangle_leg_m = 0.7;
+    options.patch.triangle_leg_m = 0.3;
+    const ObjectiveSet set(room.source, room.target, TheScene().features, metrics, options);
+    for (std::size_t m = 0; m < 3; ++m) {
+      const Objective& objective = set.objectives()[m];
+      EXPECT_EQ(objective.Evaluate(kMotion, 2).n() == 0, m == gated) << metrics[m];
+      EXPECT_EQ(objective.loss(), options.loss.get());
+    }
+    EXPECT_DOUBLE_EQ(set.objectives()[2].matcher().area_patch(), 0.09);
+  }
+}
+
+TEST(ObjectiveSet, KnowsWhichMetricsNeedFeatures) {
+  for (const char* metric :
+       {"edge_to_line", "edge_to_line_distance", "planar_to_patch", "planar_to_plane"}) {
+    EXPECT_TRUE(NeedsFeatures(metric)) << metric;
+  }
+  for (const char* metric : {"point_to_point", "point_to_plane", "symmetric", "symmetric_rotated",
+                             "symmetric_split", "two_plane"}) {
+    EXPECT_FALSE(NeedsFeatures(metric)) << metric;
+  }
+}
+
 // LOAM's maps: edges are matched to the edges alone.
 TEST(ObjectiveSet, GivesEachKindOfMetricItsOwnClouds) {
   const testing_support::MovedRoom& room = TheScene().room;
