@@ -6,6 +6,8 @@
 #include <pcl/features/normal_3d.h>
 
 #include <Eigen/Eigenvalues>
+#include <algorithm>
+#include <vector>
 
 #include "src/io/kitti.h"
 #include "src/neighbors/neighbor_search.h"
@@ -76,6 +78,30 @@ TEST(Normals, CovarianceOfFourPointsByHand) {
   const Mat3 expected = Vec3(0.5, 2, 0).asDiagonal();
   for (const Mat3& C : EstimateCovariances(cloud, {}, 1)) {
     EXPECT_LE((C - expected).norm(), 1e-15);
+  }
+}
+
+// By default of the 20 nearest points, the point itself among them.
+TEST(Normals, CovarianceOfTheTwentyNearestByBruteForce) {
+  const PointCloud cloud = testing_support::Room(60, 1);
+  const std::vector<Mat3> covariances = EstimateCovariances(cloud, {}, 1);
+  for (std::size_t i = 0; i < cloud.size(); ++i) {
+    std::vector<Vec3> nearest;
+    for (std::size_t j = 0; j < cloud.size(); ++j) {
+      nearest.push_back(cloud.Point(j) - cloud.Point(i));
+    }
+    std::sort(nearest.begin(), nearest.end(),
+              [](const Vec3& a, const Vec3& b) { return a.norm() < b.norm(); });
+    nearest.resize(20);
+    Vec3 mean = Vec3::Zero();
+    for (const Vec3& d : nearest) {
+      mean += d / 20;
+    }
+    Mat3 expected = Mat3::Zero();
+    for (const Vec3& d : nearest) {
+      expected += (d - mean) * (d - mean).transpose() / 20;
+    }
+    EXPECT_LE((covariances[i] - expected).norm(), 1e-5 * expected.norm());
   }
 }
 

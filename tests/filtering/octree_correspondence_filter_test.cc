@@ -168,9 +168,7 @@ PointCloud Wall(double offset_m, bool across) {
 }
 
 TEST(OctreeCorrespondenceFilter, HoldsTheBrakingArgument) {
-  const double deceleration = 10, revolution_s = 0.1;
-  const double worst_m = 0.5 * deceleration * revolution_s * revolution_s;
-  EXPECT_DOUBLE_EQ(worst_m, 0.05);
+  const double worst_m = 0.5 * 10 * 0.1 * 0.1;  // Braking at 10 m/s^2 for one turn of 0.1 s.
   EXPECT_LT(worst_m, OctreeFilterOptions().voxel_size_m);
   const SE3d braked(Mat3::Identity(), Vec3(worst_m, 0, 0));
   const SE3d half_metre(Mat3::Identity(), Vec3(0.5, 0, 0));
