@@ -12,7 +12,7 @@
 #include "src/common/text.h"
 #include "src/io/kitti.h"
 #include "src/io/output.h"
-#include "src/io/scan_sequence.h"
+#include "src/io/sequences.h"
 
 DEFINE_string(estimate, "",
               "Estimated trajectories, separated by commas: KITTI's format (12 columns) or TUM's "

@@ -156,7 +156,6 @@ ObjectiveSetOptions ObjectiveSetFromFlags() {
       AtLeastZero("fit_max_neighbor_distance_m", FLAGS_fit_max_neighbor_distance_m);
   options.line.triangle_leg_m = FLAGS_patch_leg_m;
   options.patch = options.line;
-  options.threads = ThreadsFromFlags();
   return options;
 }
 

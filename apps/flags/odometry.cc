@@ -9,7 +9,7 @@
 #include "apps/flags/filters.h"
 #include "apps/flags/minimizer.h"
 #include "apps/flags/objective.h"
-#include "apps/flags/preprocessing.h"
+#include "apps/flags/preparation.h"
 #include "apps/flags/run.h"
 #include "apps/run/app.h"
 #include "src/common/text.h"
@@ -58,7 +58,7 @@ OdometryOptions OdometryFromFlags() {
   for (const std::string& weight : Split(FLAGS_weights)) {
     options.weights.push_back(ParseNumber(weight));
   }
-  options.preprocessing = PreprocessingFromFlags(options.metrics);
+  options.preparation = PreparationFromFlags(options.metrics);
   options.filters = FiltersFromFlags();
   options.objective = ObjectiveSetFromFlags();
   options.minimizer = MinimizerFromFlags();

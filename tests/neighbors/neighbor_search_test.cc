@@ -296,9 +296,9 @@ TEST_P(NeighborSearchAt, EqualsBruteForceOnARealScan) {
   ICPSCAPE_SKIP_WITHOUT_KITTI();
   const std::filesystem::path root = KittiRoot();
   DroppedPoints dropped;
-  const KittiSequence sequence(root, "00");
-  const PointCloud target = ReadVelodyne(sequence.ScanPath(94), &dropped);
-  const PointCloud source = ReadVelodyne(sequence.ScanPath(95), &dropped);
+  const KittiFiles sequence(root, "00");
+  const PointCloud target = ReadVelodyne(sequence.Scan(94), &dropped);
+  const PointCloud source = ReadVelodyne(sequence.Scan(95), &dropped);
   PointCloud queries;
   for (std::size_t i = 0; i < source.size(); i += source.size() / 40) {
     testing_support::AddPoint(source.Point(i), &queries);
@@ -343,10 +343,10 @@ void ExpectEqualsNanoflann(const PointCloud& target, const PointCloud& source) {
 
 TEST_P(NeighborSearchAt, EqualsNanoflannOnAWholeRealPair) {
   ICPSCAPE_SKIP_WITHOUT_KITTI();
-  const KittiSequence sequence(KittiRoot(), "07");
+  const KittiFiles sequence(KittiRoot(), "07");
   DroppedPoints dropped;
-  ExpectEqualsNanoflann(ReadVelodyne(sequence.ScanPath(0), &dropped),
-                        ReadVelodyne(sequence.ScanPath(4), &dropped));
+  ExpectEqualsNanoflann(ReadVelodyne(sequence.Scan(0), &dropped),
+                        ReadVelodyne(sequence.Scan(4), &dropped));
 }
 
 TEST_P(NeighborSearchAt, EqualsNanoflannOnAMovedRoom) {
