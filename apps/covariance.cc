@@ -5,19 +5,18 @@
 #include <filesystem>
 #include <iostream>
 
-#include "apps/app.h"
-#include "apps/covariance_report.h"
-#include "apps/lidar_flags.h"
-#include "apps/objective_flags.h"
-#include "apps/pair_filters.h"
-#include "apps/pair_flags.h"
+#include "apps/flags/lidar.h"
+#include "apps/flags/objective.h"
+#include "apps/flags/pair.h"
+#include "apps/flags/pair_filters.h"
+#include "apps/flags/preparation.h"
+#include "apps/reports/covariance.h"
+#include "apps/run/app.h"
 #include "src/common/error.h"
 #include "src/common/text.h"
 #include "src/covariance/monte_carlo.h"
 
 DECLARE_string(scene);
-DECLARE_int32(normal_neighbors);
-DECLARE_double(normal_radius_m);
 
 DEFINE_int32(draws, 100,
              "Monte-Carlo draws, with --scene; 0 is none: the report on one pair alone.");
@@ -89,9 +88,7 @@ MonteCarloOptions MonteCarloFromFlags() {
   options.lidar = LidarFromFlags();
   options.sensor = SensorFromFlags();
   options.metrics = MetricsFromFlags();
-  options.normals.num_neighbors = FLAGS_normal_neighbors;
-  options.normals.radius_m = FLAGS_normal_radius_m;
-  options.features = FeaturesFromFlags();
+  options.preparation = PreparationFromFlags(options.metrics);
   options.objective = ObjectiveSetFromFlags();
   RequireFlag(FLAGS_start_m >= 0 && FLAGS_start_m <= 1000, "start_m", Number(FLAGS_start_m),
               "0 to 1000 m");
@@ -141,13 +138,14 @@ void Covariance() {
   CovarianceReport report(CovarianceFromFlags(), FLAGS_length_scale_m);
   std::string title;
   {
-    ScanPair pair = LoadPair(metrics, &manifest);
+    ScanPair pair = ReadPair(&manifest);
     title = pair.title;
-    FilterPair(&pair, &manifest);
-    const ObjectiveSet set(pair.source, pair.target, pair.features, metrics,
+    const SE3d T_initial = InitialPose(pair, &manifest);
+    const PreparedPair scans = PrepareFromFlags(metrics, &pair, &manifest);
+    const ObjectiveSet set(FilterFromFlags(scans, pair, &manifest), metrics,
                            ObjectiveSetFromFlags());
     for (const Objective& objective : set.objectives()) {
-      report.AddPair(objective, pair.T_initial, ThreadsFromFlags(), &manifest);
+      report.AddPair(objective, T_initial, ThreadsFromFlags(), &manifest);
     }
   }
   // Those of an earlier run with draws must not stand beside this run's.

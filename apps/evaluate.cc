@@ -6,13 +6,13 @@
 #include <iostream>
 #include <set>
 
-#include "apps/app.h"
-#include "apps/trajectory_report.h"
+#include "apps/reports/trajectory.h"
+#include "apps/run/app.h"
 #include "src/common/error.h"
 #include "src/common/text.h"
 #include "src/io/kitti.h"
 #include "src/io/output.h"
-#include "src/io/scan_sequence.h"
+#include "src/io/sequences.h"
 
 DEFINE_string(estimate, "",
               "Estimated trajectories, separated by commas: KITTI's format (12 columns) or TUM's "

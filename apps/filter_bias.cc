@@ -7,9 +7,9 @@
 #include <cstdio>
 #include <iostream>
 
-#include "apps/app.h"
-#include "apps/objective_flags.h"
-#include "apps/pair_flags.h"
+#include "apps/flags/objective.h"
+#include "apps/flags/pair.h"
+#include "apps/run/app.h"
 #include "src/common/error.h"
 #include "src/common/text.h"
 #include "src/filtering/filter_chain.h"
@@ -28,40 +28,36 @@ DEFINE_int32(samples, 41, "Poses per search of a minimum, over twice the range o
 namespace icpscape {
 namespace {
 
-ScanPair FilteredPairOf(const ScanPair& pair, const SE3d& T_estimate) {
+PreparedPair FilteredBy(const PreparedPair& scans, const SE3d& T_estimate) {
   FilterOptions octree;
   octree.octree_voxel_m = FLAGS_octree_voxel_m;
-  FilteredPair filtered = ApplyFilters(pair.source, pair.target, T_estimate, octree);
-  ScanPair result = pair;
-  result.features = pair.features.Select(filtered.keep_source);
-  result.source = std::move(filtered.source);
-  result.target = std::move(filtered.target);
-  return result;
+  return scans.Select(
+      ApplyFilters(scans.source.cloud(), scans.target.cloud(), T_estimate, octree),
+      ThreadsFromFlags());
 }
 
 // The minima of all metrics under filters with every error of T_e, and (as "unfiltered") without.
-void Sweep(const ScanPair& pair, const std::vector<std::string>& metrics, const ErrorAxis& axis,
+void Sweep(const PreparedPair& scans, const std::vector<std::string>& metrics, const ErrorAxis& axis,
            Table* table, Manifest* manifest) {
   const int threads = ThreadsFromFlags();
   std::vector<double> errors;
   std::vector<std::vector<double>> minima(metrics.size());
-  const auto evaluate = [&](const ScanPair& scans, const std::string& error) {
-    const ObjectiveSet set(scans.source, scans.target, scans.features, metrics,
-                           ObjectiveSetFromFlags());
+  const auto evaluate = [&](const PreparedPair& pair, const std::string& error) {
+    const ObjectiveSet set(pair, metrics, ObjectiveSetFromFlags());
     std::vector<double> found;
     for (const Objective& objective : set.objectives()) {
       found.push_back(ArgminError(objective, axis, FLAGS_samples, threads));
       table->AddRow({axis.name, axis.unit, objective.metric(), error, Number(found.back()),
-                     std::to_string(scans.source.size())});
+                     std::to_string(pair.source.cloud().size())});
     }
     return found;
   };
-  const std::vector<double> unfiltered = evaluate(pair, "unfiltered");
+  const std::vector<double> unfiltered = evaluate(scans, "unfiltered");
   Progress progress("filters, " + axis.name, FLAGS_steps);
   for (int i = 0; i < FLAGS_steps; ++i) {
     const double error = axis.range * (2.0 * i / (FLAGS_steps - 1) - 1);
     const std::vector<double> found =
-        evaluate(FilteredPairOf(pair, axis.pose(error)), Number(error));
+        evaluate(FilteredBy(scans, axis.pose(error)), Number(error));
     errors.push_back(error);
     for (std::size_t m = 0; m < metrics.size(); ++m) {
       minima[m].push_back(found[m]);
@@ -80,20 +76,23 @@ void Sweep(const ScanPair& pair, const std::vector<std::string>& metrics, const 
 }
 
 // What the filter with the motion of the frame before removes of the moving objects.
-void ReportRemoval(const ScanPair& pair, Manifest* manifest) {
-  if (!pair.T_prior || pair.source.label.empty()) {
+void ReportRemoval(const PreparedPair& scans, const std::optional<SE3d>& T_predicted,
+                   Manifest* manifest) {
+  const PointCloud& source = scans.source.cloud();
+  const PointCloud& target = scans.target.cloud();
+  if (!T_predicted || source.label.empty()) {
     return;
   }
   const auto is_moving = [](std::int32_t label) { return IsMoving(SemanticOf(label)); };
-  const FilteredPair filtered =
-      OctreeCorrespondenceFilter(pair.source, pair.target, *pair.T_prior, {FLAGS_octree_voxel_m});
-  const RemovalScore score = ScoreRemoval(pair.source, filtered.keep_source, is_moving);
+  const KeptPoints kept =
+      OctreeCorrespondenceFilter(source, target, *T_predicted, {FLAGS_octree_voxel_m});
+  const RemovalScore score = ScoreRemoval(source, kept.source, is_moving);
   // Two points in one voxel are at most its diagonal apart.
   const DynamicRemains remains =
-      FindDynamicRemains(pair.source, pair.target, filtered.keep_source, *pair.T_prior,
+      FindDynamicRemains(source, target, kept.source, *T_predicted,
                          std::sqrt(3.0) * FLAGS_octree_voxel_m, is_moving);
   std::printf("T_e = previous motion: keeps %.1f %% of the source\n",
-              100 * CountKept(filtered.keep_source).Fraction());
+              100 * CountKept(kept.source).Fraction());
   std::printf("moving points: %zu; removed: %zu; recall %.3f, precision %.3f\n", score.dynamic,
               score.dynamic_removed, score.Recall(), score.Precision());
   std::printf(
@@ -132,16 +131,17 @@ void FilterBias() {
   const std::filesystem::path out = OutputFolder();
   Manifest manifest(AppName());
   RecordFlags(&manifest);
-  const ScanPair pair = LoadPair(metrics, &manifest);
+  ScanPair pair = ReadPair(&manifest);
   if (!pair.T_ground_truth) {
     throw UsageError(
         "no ground truth: expected --ground_truth=FILE (T_target_source as 4x4 text).");
   }
+  const PreparedPair scans = PrepareFromFlags(metrics, &pair, &manifest);
   Table table({"sweep", "unit", "metric", "error_of_estimate", "argmin_error", "source_points"});
-  Sweep(pair, metrics, AlongPath(*pair.T_ground_truth, FLAGS_translation_range_m), &table,
+  Sweep(scans, metrics, AlongPath(*pair.T_ground_truth, FLAGS_translation_range_m), &table,
         &manifest);
-  Sweep(pair, metrics, Yaw(*pair.T_ground_truth, FLAGS_yaw_range_deg), &table, &manifest);
-  ReportRemoval(pair, &manifest);
+  Sweep(scans, metrics, Yaw(*pair.T_ground_truth, FLAGS_yaw_range_deg), &table, &manifest);
+  ReportRemoval(scans, pair.T_predicted, &manifest);
   table.WriteCsv(out / "filter_bias.csv");
   RunPlotScript("plot_filter_bias.py", {(out / "filter_bias.csv").string(), "--out",
                                         (out / "filter_bias").string(), "--title", pair.title});

@@ -7,12 +7,13 @@
 #include <cstdio>
 #include <iostream>
 
-#include "apps/app.h"
-#include "apps/iterates.h"
-#include "apps/minimizer_flags.h"
-#include "apps/objective_flags.h"
-#include "apps/pair_filters.h"
-#include "apps/pair_flags.h"
+#include "apps/flags/minimizer.h"
+#include "apps/flags/objective.h"
+#include "apps/flags/pair.h"
+#include "apps/flags/pair_filters.h"
+#include "apps/reports/ground_truth_check.h"
+#include "apps/reports/iterates.h"
+#include "apps/run/app.h"
 #include "residuals/registry.h"
 #include "src/common/error.h"
 #include "src/common/text.h"
@@ -182,11 +183,12 @@ std::string ChangedFlags() {
 }
 
 // Prints how far point-to-plane moves from the ground truth, and returns the pose for u = 1.
-SE3d ReferencePose(const ScanPair& pair, Manifest* manifest) {
+SE3d ReferencePose(const ScanPair& pair, const PreparedPair& scans, Manifest* manifest) {
   const SE3d truth = *pair.T_ground_truth;
   std::printf("motion: %.4f m, %.4f deg\n", truth.t().norm(),
               truth.LogRotation().norm() * 180 / M_PI);
-  const auto check = GroundTruthCheckOf(pair, FLAGS_reference == "refined", manifest);
+  const auto check = ReportGroundTruthCheck(pair, scans, FLAGS_reference == "refined",
+                                           ThreadsFromFlags(), manifest);
   return FLAGS_reference == "refined" ? check->T_refined : truth;
 }
 
@@ -224,12 +226,13 @@ void Landscape() {
   const std::vector<std::string> metrics = MetricsFromFlags();
   Manifest manifest(AppName());
   RecordFlags(&manifest);
-  ScanPair pair = LoadPair(metrics, &manifest);
-  const SE3d T_reference = ReferencePose(pair, &manifest);
-  FilterPair(&pair, &manifest);
+  ScanPair pair = ReadPair(&manifest);
+  const SE3d T_initial = InitialPose(pair, &manifest);
+  const PreparedPair scans = PrepareFromFlags(metrics, &pair, &manifest);
+  const SE3d T_reference = ReferencePose(pair, scans, &manifest);
 
-  const ObjectiveSet set(pair.source, pair.target, pair.features, metrics, ObjectiveSetFromFlags());
-  const Path path(pair.T_initial, T_reference, PathKindFromName(FLAGS_path));
+  const ObjectiveSet set(FilterFromFlags(scans, pair, &manifest), metrics, ObjectiveSetFromFlags());
+  const Path path(T_initial, T_reference, PathKindFromName(FLAGS_path));
   std::string association = "re-associated at every pose";
   if (FLAGS_association == "frozen") {
     options.frozen_u = FLAGS_frozen_u;
@@ -243,10 +246,10 @@ void Landscape() {
   }
   manifest.AddTiming("landscape");
 
-  PrintMinima(curves, (T_reference.t() - pair.T_initial.t()).norm(), &manifest);
+  PrintMinima(curves, (T_reference.t() - T_initial.t()).norm(), &manifest);
   WriteCurves(curves, out);
   if (FLAGS_iterates) {
-    ReportIterates(MinimizeEach(set.objectives(), pair.T_initial, MinimizerFromFlags()), path,
+    ReportIterates(MinimizeEach(set.objectives(), T_initial, MinimizerFromFlags()), path,
                    options, out, &manifest);
     manifest.AddTiming("iterates");
   }

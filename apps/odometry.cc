@@ -10,11 +10,11 @@
 #include <optional>
 #include <set>
 
-#include "apps/app.h"
-#include "apps/odometry_flags.h"
-#include "apps/run_flags.h"
-#include "apps/sequence_flags.h"
-#include "apps/trajectory_report.h"
+#include "apps/flags/odometry.h"
+#include "apps/flags/run.h"
+#include "apps/flags/drive.h"
+#include "apps/reports/trajectory.h"
+#include "apps/run/app.h"
 #include "src/common/error.h"
 #include "src/common/text.h"
 #include "src/io/journal.h"
@@ -84,7 +84,7 @@ class Run {
       take(i);
       if (map_) {
         NamingTheScan(i, [&] {
-          map_->Insert(odometry_.last_scan()->cloud, records_.back().result.T_world_lidar,
+          map_->Insert(odometry_.last_scan()->cloud(), records_.back().result.T_world_lidar,
                        static_cast<int>(i));
         });
       }
@@ -94,7 +94,7 @@ class Run {
 
   PointCloud Read(std::size_t i) const {
     DroppedPoints dropped;
-    return ReadPointFile(sequence_.scans[i], &dropped);
+    return sequence_.scans[i].read(&dropped);
   }
 
   // What the odometry has to say against a scan, with the scan's name.
@@ -102,18 +102,18 @@ class Run {
     try {
       use();
     } catch (const InputError& error) {
-      throw InputError(sequence_.scans[i].string() + ": " + error.what());
+      throw InputError(sequence_.scans[i].Place() + ": " + error.what());
     }
   }
 
   void Replay(std::size_t i) {
     const FrameRecord record = ParseFrameRecord(
-        journal_.records()[i], "journal, scan " + sequence_.scans[i].filename().string());
-    if (record.scan_sha256 != Sha256(sequence_.scans[i])) {
-      throw InputError(sequence_.scans[i].string() +
+        journal_.records()[i], "journal, scan " + sequence_.scans[i].name);
+    PointCloud scan = Read(i);
+    if (record.scan_sha256 != Sha256OfScan(sequence_.scans[i].file, scan)) {
+      throw InputError(sequence_.scans[i].Place() +
                        ": is not the scan of the journal; expected it unchanged, or --restart.");
     }
-    PointCloud scan = Read(i);
     NamingTheScan(i, [&] { odometry_.Replay(std::move(scan), record.result); });
     records_.push_back(record);
   }
@@ -122,7 +122,7 @@ class Run {
     FrameRecord record;
     const Clock::time_point start = Clock::now();
     PointCloud scan = Read(i);
-    record.scan_sha256 = Sha256(sequence_.scans[i]);
+    record.scan_sha256 = Sha256OfScan(sequence_.scans[i].file, scan);
     record.read_s = SecondsSince(start);
     const Clock::time_point read = Clock::now();
     NamingTheScan(i, [&] { record.result = odometry_.Add(std::move(scan)); });
@@ -149,7 +149,7 @@ void WriteFrames(const ScanSequence& sequence, const std::vector<FrameRecord>& r
   for (std::size_t i = 0; i < records.size(); ++i) {
     const FrameResult& r = records[i].result;
     const Vec3& t = r.T_world_lidar.t();
-    frames.AddRow({std::to_string(i), sequence.scans[i].filename().string(),
+    frames.AddRow({std::to_string(i), sequence.scans[i].name,
                    Number(sequence.times_s[i]), r.registered ? "1" : "0",
                    i == 0 ? "first" : TerminationName(r.termination), std::to_string(r.iterations),
                    std::to_string(r.n), Number(r.rmse), Number(r.gate_m), std::to_string(r.points),
@@ -235,14 +235,14 @@ void PrintFailures(const std::vector<FrameRecord>& records, Manifest* manifest) 
 
 void RunOdometry() {
   SetDefaultsOfMode();
-  CheckSequenceFlags();
+  CheckDriveFlags();
   OdometryFromFlags();
   RequireFlag(FLAGS_write_map_voxel_m >= 0 && std::isfinite(FLAGS_write_map_voxel_m),
               "write_map_voxel_m", Number(FLAGS_write_map_voxel_m), "a length in m, or 0");
   const std::filesystem::path out = OutputFolder();
   Manifest manifest(AppName());
   RecordFlags(&manifest);
-  const ScanSequence sequence = SequenceFromFlags(&manifest);
+  const ScanSequence sequence = DriveFromFlags(&manifest);
   Journal journal(out / "journal.txt", JournalHeader(sequence),
                   FLAGS_restart ? Journal::Begin::kAnew : Journal::Begin::kWhereItEnds);
   std::filesystem::remove(out / "manifest.json");  // Written last: the mark of a finished run.

@@ -8,18 +8,19 @@
 #include <optional>
 #include <set>
 
-#include "apps/app.h"
-#include "apps/lidar_flags.h"
+#include "apps/flags/lidar.h"
+#include "apps/run/app.h"
 #include "src/common/error.h"
 #include "src/common/parallel.h"
 #include "src/common/text.h"
 #include "src/io/kitti.h"
 #include "src/io/output.h"
+#include "src/io/sequences.h"
 #include "src/paper/claims.h"
 #include "src/paper/figures.h"
-#include "src/paper/pair.h"
+#include "src/paper/paper_curves.h"
 #include "src/paper/predicates.h"
-#include "src/simulation/scenes.h"
+#include "src/simulation/simulated_sequence.h"
 
 DEFINE_string(figure, "all",
               "all or one of 00_1500, 00_100, 01_320, 01_320_improved, 01_420, 01_420_octree.");
@@ -80,10 +81,8 @@ std::vector<Figure> FiguresOnDisk(const std::vector<Figure>& wanted) {
   for (const Figure& figure : wanted) {
     std::string missing;
     for (const int frame : {FrameOf(figure) - 1, FrameOf(figure)}) {
-      char name[32];
-      std::snprintf(name, sizeof name, "%06d.bin", frame);
-      const std::filesystem::path scan = std::filesystem::path(FLAGS_kitti_root) / "sequences" /
-                                         figure.sequence / "velodyne" / name;
+      const std::filesystem::path scan =
+          KittiFiles(FLAGS_kitti_root, figure.sequence).Scan(frame);
       if (!std::filesystem::exists(scan)) {
         missing += (missing.empty() ? "" : " and ") + scan.string();
       }
@@ -101,30 +100,21 @@ std::vector<Figure> FiguresOnDisk(const std::vector<Figure>& wanted) {
   return figures;
 }
 
-PaperPair LoadPair(const Figure& figure, int threads, Manifest* manifest) {
-  PaperPair pair;
-  if (FromKitti()) {
-    const KittiSequence sequence(FLAGS_kitti_root, figure.sequence);
-    const int frame = FrameOf(figure);
-    pair.T_target_source = sequence.RelativeMotion(frame - 1, frame);
-    pair.T_prior = sequence.RelativeMotion(frame - 2, frame - 1);
-    DroppedPoints dropped;
-    pair.source = ReadVelodyne(sequence.ScanPath(frame), &dropped);
-    pair.target = ReadVelodyne(sequence.ScanPath(frame - 1), &dropped);
-    for (const auto& path : {sequence.PosesPath(), sequence.CalibrationPath(),
-                             sequence.ScanPath(frame), sequence.ScanPath(frame - 1)}) {
-      manifest->AddInput(path);
-    }
-  } else {
-    SimulatedPair simulated =
-        SimulatePair(figure.scene, SeedFromFlags(), LidarFromFlags(), threads);
-    pair.source = std::move(simulated.source);
-    pair.target = std::move(simulated.target);
-    pair.T_target_source = simulated.T_target_source;
-    pair.T_prior = simulated.T_prior;
+// The scan of the figure and the one before it.
+ScanPair ReadPair(const Figure& figure, int threads, Manifest* manifest) {
+  if (!FromKitti()) {
+    return SimulatePair(figure.scene, SeedFromFlags(), LidarFromFlags(), threads);
   }
-  PrepareForMetrics(threads, &pair);
-  return pair;
+  const ScanSequence sequence = OpenKittiSequence(FLAGS_kitti_root, figure.sequence);
+  for (const std::filesystem::path& input : sequence.inputs) {
+    manifest->AddInput(input);
+  }
+  const int frame = FrameOf(figure);
+  return sequence.Pair(frame, frame - 1, [&](const char*, const Scan& scan) {
+    manifest->AddInput(scan.file);
+    DroppedPoints dropped;
+    return scan.read(&dropped);
+  });
 }
 
 // What the figures of one scene draw, over one pair.
@@ -143,24 +133,28 @@ void EvaluateScene(const std::vector<Figure>& figures, const std::string& scene,
       }
     }
   }
-  const PaperPair pair = LoadPair(*first, options.threads, manifest);
-  std::cout << TitleOf(*first) << ": source " << pair.source.size() << " points ("
-            << pair.features.num_edge << " edges), target " << pair.target.size() << " points"
-            << std::endl;
-  const SE3d off = pair.T_target_source.Inverse() * pair.T_prior;
+  ScanPair pair = ReadPair(*first, options.threads, manifest);
+  const SE3d T_ground_truth = pair.T_ground_truth.value();
+  const SE3d T_predicted = pair.T_predicted.value();
+  const PreparedPair scans =
+      PrepareForPaper(std::move(pair.source), std::move(pair.target), options.threads);
+  std::cout << TitleOf(*first) << ": source " << scans.source.cloud().size() << " points ("
+            << scans.source.features()->num_edge << " edges), target "
+            << scans.target.cloud().size() << " points" << std::endl;
+  const SE3d off = T_ground_truth.Inverse() * T_predicted;
   std::printf("  motion %.4f m; that of the frame before, T_e, is %.4f m and %.3f deg off\n",
-              pair.T_target_source.t().norm(), off.t().norm(),
+              T_ground_truth.t().norm(), off.t().norm(),
               off.LogRotation().norm() * 180 / M_PI);
   manifest->SetResult("prior_off_m_" + scene, off.t().norm());
   Progress progress("poses of " + scene, options.samples * static_cast<int>(variants.size()));
   for (auto& [file, curve] :
-       EvaluatePaperCurves(pair, curves, options, [&](int done) { progress.Show(done); })) {
+       EvaluatePaperCurves(scans, T_ground_truth, T_predicted, curves, options, [&](int done) { progress.Show(done); })) {
     inputs->curves[file] = curve.curve;
     (*drawn)[file] = std::move(curve);
   }
   for (const Figure& figure : figures) {
     if (figure.scene == scene) {
-      inputs->motions[figure.name] = pair.T_target_source;
+      inputs->motions[figure.name] = T_ground_truth;
     }
   }
   manifest->AddTiming(scene);

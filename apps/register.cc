@@ -7,11 +7,12 @@
 #include <iostream>
 #include <optional>
 
-#include "apps/app.h"
-#include "apps/minimizer_flags.h"
-#include "apps/objective_flags.h"
-#include "apps/pair_filters.h"
-#include "apps/pair_flags.h"
+#include "apps/flags/minimizer.h"
+#include "apps/flags/objective.h"
+#include "apps/flags/pair.h"
+#include "apps/flags/pair_filters.h"
+#include "apps/reports/ground_truth_check.h"
+#include "apps/run/app.h"
 #include "src/common/error.h"
 #include "src/common/text.h"
 #include "src/io/output.h"
@@ -128,17 +129,17 @@ void Register() {
   const std::filesystem::path out = OutputFolder();
   Manifest manifest(AppName());
   RecordFlags(&manifest);
-  ScanPair pair = LoadPair(metrics, &manifest);
+  ScanPair pair = ReadPair(&manifest);
+  const SE3d T_initial = InitialPose(pair, &manifest);
+  const PreparedPair scans = PrepareFromFlags(metrics, &pair, &manifest);
   std::optional<GroundTruthCheck> check;
   if (pair.T_ground_truth) {
-    check = GroundTruthCheckOf(pair, FLAGS_starts > 0, &manifest);
+    check =
+        ReportGroundTruthCheck(pair, scans, FLAGS_starts > 0, ThreadsFromFlags(), &manifest);
   }
-  const PointCloud whole_source = pair.source;
-  FilterPair(&pair, &manifest);
-
-  const ObjectiveSet set(pair.source, pair.target, pair.features, metrics, ObjectiveSetFromFlags());
+  const ObjectiveSet set(FilterFromFlags(scans, pair, &manifest), metrics, ObjectiveSetFromFlags());
   const JointObjective objective = JointFromFlags(set.objectives());
-  const MinimizerSummary summary = Minimize(objective, pair.T_initial, options);
+  const MinimizerSummary summary = Minimize(objective, T_initial, options);
   manifest.AddTiming("register");
   if (!summary.Usable()) {
     throw ComputationError(objective.Name() + ": " + summary.message);
@@ -150,8 +151,9 @@ void Register() {
   manifest.SetResult("termination", TerminationName(summary.termination));
   manifest.SetResult("final_cost", summary.final_cost());
   manifest.SetResult("matching_passes", summary.matching_passes);
+  manifest.SetResult("searches_built", static_cast<double>(SearchesBuilt()));
   WriteTextFile(out / "T_target_source.txt", FormatTransform(T));
-  WritePly(out / "aligned.ply", whole_source.Transformed(T));
+  WritePly(out / "aligned.ply", scans.source.cloud().Transformed(T));
   if (pair.T_ground_truth) {
     PrintDifference("ground truth", *pair.T_ground_truth, T);
   }

@@ -3,14 +3,14 @@
 
 #include <iostream>
 
-#include "apps/app.h"
-#include "apps/lidar_flags.h"
+#include "apps/flags/lidar.h"
+#include "apps/run/app.h"
 #include "src/common/error.h"
 #include "src/common/parallel.h"
 #include "src/common/text.h"
 #include "src/io/kitti.h"
 #include "src/io/manifest.h"
-#include "src/io/scan_sequence.h"
+#include "src/io/sequences.h"
 #include "src/io/sha256.h"
 #include "src/io/transform.h"
 #include "src/simulation/dataset.h"
@@ -18,6 +18,7 @@
 #include "src/simulation/random.h"
 #include "src/simulation/route.h"
 #include "src/simulation/scenes.h"
+#include "src/simulation/simulated_sequence.h"
 #include "src/simulation/simulator.h"
 
 DEFINE_string(scene, "",
@@ -36,8 +37,6 @@ DECLARE_int32(seed);
 
 namespace icpscape {
 namespace {
-
-constexpr char kTown[] = "town";
 
 // All that a scan depends on besides its index. The program itself belongs to it: while it is being
 // developed, its version does not tell one build from another.
@@ -106,6 +105,15 @@ void WriteDrive(const std::string& name, const std::vector<SE3d>& poses, const F
       {first, last}, [&] { return MakeDrive(poses, MixKeys(SeedFromFlags(), 1)).world; }, 0);
 }
 
+std::vector<SE3d> LidarPoses() {
+  const ScanSequence sequence = OpenKittiSequence(FLAGS_kitti_root, FLAGS_sequence);
+  if (sequence.T_world_lidar.empty()) {
+    throw InputError(KittiFiles(FLAGS_kitti_root, FLAGS_sequence).Poses().string() +
+                     ": no poses; expected them, and calib.txt, to drive along.");
+  }
+  return sequence.T_world_lidar;
+}
+
 void Simulate() {
   const bool drive = !FLAGS_kitti_root.empty();
   if (drive == !FLAGS_scene.empty()) {
@@ -118,7 +126,7 @@ void Simulate() {
   LidarFromFlags();
   SeedFromFlags();
   if (drive) {
-    WriteDrive(FLAGS_sequence, KittiSequence(FLAGS_kitti_root, FLAGS_sequence).LidarPoses(),
+    WriteDrive(FLAGS_sequence, LidarPoses(),
                frames);
     return;
   }

@@ -120,7 +120,7 @@ TEST(Normals, AgreeWithPclOnARealScan) {
   ICPSCAPE_SKIP_WITHOUT_KITTI();
   const std::filesystem::path root = KittiRoot();
   DroppedPoints dropped;
-  PointCloud cloud = ReadVelodyne(KittiSequence(root, "00").ScanPath(95), &dropped);
+  PointCloud cloud = ReadVelodyne(KittiFiles(root, "00").Scan(95), &dropped);
   EstimateNormals({}, 2, &cloud);
   const NeighborSearch search(cloud.View());
   const std::vector<Mat3> covariances = EstimateCovariances(cloud, {}, 2);

@@ -10,6 +10,7 @@
 #include "src/cloud/normals.h"
 #include "src/common/error.h"
 #include "src/io/kitti.h"
+#include "src/io/sequences.h"
 #include "src/matching/closest_point_matcher.h"
 #include "tests/support/matchers.h"
 #include "tests/support/real_scans.h"
@@ -225,14 +226,12 @@ TEST(Curve, RealScansHaveTheirMinimumAtTheGroundTruth) {
     double within_m;
   } const cases[] = {{"00", 15, 0.03}, {"00", 95, 0.03}, {"07", 2, 0.01}};
   for (const auto& c : cases) {
-    const KittiSequence sequence(root, c.sequence);
-    DroppedPoints dropped;
-    PointCloud source = ReadVelodyne(sequence.ScanPath(c.frame), &dropped);
-    PointCloud target = ReadVelodyne(sequence.ScanPath(c.frame - 1), &dropped);
-    EstimateNormals({}, 2, &source);
-    EstimateNormals({}, 2, &target);
-    const SE3d truth = sequence.RelativeMotion(c.frame - 1, c.frame);
-    const ClosestPointMatcher matcher(source, target);
+    const ScanSequence sequence = OpenKittiSequence(root, c.sequence);
+    ScanPair pair = sequence.Pair(c.frame, c.frame - 1);
+    EstimateNormals({}, 2, &pair.source);
+    EstimateNormals({}, 2, &pair.target);
+    const SE3d truth = *pair.T_ground_truth;
+    const ClosestPointMatcher matcher(pair.source, pair.target);
     const std::vector<Objective> objectives = {Objective("point_to_plane", matcher),
                                                Objective("symmetric", matcher)};
     CurveOptions options;

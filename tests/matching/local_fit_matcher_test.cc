@@ -9,6 +9,7 @@
 #include "src/common/error.h"
 #include "src/io/kitti.h"
 #include "src/neighbors/neighbor_search.h"
+#include "src/io/sequences.h"
 #include "tests/support/real_scans.h"
 #include "tests/support/scenes.h"
 
@@ -216,7 +217,7 @@ TEST(LocalFit, AgreesWithASecondMethodOnARealScan) {
   const PointCloud source = KittiScan("00", 15);
   const PointCloud target = KittiScan("00", 14);
   const NeighborSearch search(target.View());
-  const SE3d T = KittiSequence(KittiRoot(), "00").RelativeMotion(14, 15);
+  const SE3d T = *OpenKittiSequence(KittiRoot(), "00").Motion(14, 15);
   Matches lines, patches;
   LocalFitMatcher(Shape::kLine, source, target).Match(T, 2, &lines);
   LocalFitMatcher(Shape::kPatch, source, target).Match(T, 2, &patches);

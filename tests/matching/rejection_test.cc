@@ -9,6 +9,7 @@
 
 #include "src/common/error.h"
 #include "src/matching/closest_point_matcher.h"
+#include "src/io/sequences.h"
 #include "tests/support/real_scans.h"
 
 namespace icpscape {
@@ -270,7 +271,7 @@ TEST(Rejection, LeavesNoMatchesAsTheyAre) {
 TEST(ReciprocalRejector, KeepsOneSourcePointPerTargetPointOnARealPair) {
   ICPSCAPE_SKIP_WITHOUT_KITTI();
   const PointCloud source = KittiScan("00", 15), target = KittiScan("00", 14);
-  const SE3d T = KittiSequence(KittiRoot(), "00").RelativeMotion(14, 15);
+  const SE3d T = *OpenKittiSequence(KittiRoot(), "00").Motion(14, 15);
   Matches all;
   ClosestPointMatcher(source, target).Match(T, 2, &all);
   Matches strict = all, relaxed = all;

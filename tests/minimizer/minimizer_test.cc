@@ -10,6 +10,7 @@
 #include "residuals/registry.h"
 #include "src/cloud/normals.h"
 #include "src/io/kitti.h"
+#include "src/io/sequences.h"
 #include "src/matching/closest_point_matcher.h"
 #include "src/objective/loss.h"
 #include "tests/support/matchers.h"
@@ -357,15 +358,11 @@ TEST(Minimizer, IsBitIdenticalForAnyNumberOfThreads) {
 
 TEST(Minimizer, RegistersTheRealTurnFromTheIdentity) {
   ICPSCAPE_SKIP_WITHOUT_KITTI();
-  const std::filesystem::path root = KittiRoot();
-  const KittiSequence sequence(root, "00");
-  DroppedPoints dropped;
-  PointCloud source = ReadVelodyne(sequence.ScanPath(95), &dropped);
-  PointCloud target = ReadVelodyne(sequence.ScanPath(94), &dropped);
-  EstimateNormals({}, 2, &source);
-  EstimateNormals({}, 2, &target);
-  const SE3d truth = sequence.RelativeMotion(94, 95);
-  const ClosestPointMatcher matcher(source, target);
+  ScanPair pair = OpenKittiSequence(KittiRoot(), "00").Pair(95, 94);
+  EstimateNormals({}, 2, &pair.source);
+  EstimateNormals({}, 2, &pair.target);
+  const SE3d truth = *pair.T_ground_truth;
+  const ClosestPointMatcher matcher(pair.source, pair.target);
   for (const Reassociation mode : {Reassociation::kEveryStep, Reassociation::kEveryEvaluation}) {
     for (const char* metric : {"point_to_plane", "symmetric"}) {
       const Objective objective(metric, matcher);

@@ -53,10 +53,10 @@ ICPSCAPE_INSTANTIATE_SIMD_LEVELS(NanoflannAt);
 
 TEST_P(NanoflannAt, EqualsOursOnAWholeRealPair) {
   ICPSCAPE_SKIP_WITHOUT_KITTI();
-  const KittiSequence sequence(KittiRoot(), "07");
+  const KittiFiles sequence(KittiRoot(), "07");
   DroppedPoints dropped;
-  ExpectEqualsNanoflann(ReadVelodyne(sequence.ScanPath(0), &dropped),
-                        ReadVelodyne(sequence.ScanPath(4), &dropped));
+  ExpectEqualsNanoflann(ReadVelodyne(sequence.Scan(0), &dropped),
+                        ReadVelodyne(sequence.Scan(4), &dropped));
 }
 
 TEST_P(NanoflannAt, EqualsOursOnAMovedRoom) {

@@ -299,9 +299,9 @@ TEST_P(NeighborSearchAt, EqualsBruteForceOnARealScan) {
   ICPSCAPE_SKIP_WITHOUT_KITTI();
   const std::filesystem::path root = KittiRoot();
   DroppedPoints dropped;
-  const KittiSequence sequence(root, "00");
-  const PointCloud target = ReadVelodyne(sequence.ScanPath(94), &dropped);
-  const PointCloud source = ReadVelodyne(sequence.ScanPath(95), &dropped);
+  const KittiFiles sequence(root, "00");
+  const PointCloud target = ReadVelodyne(sequence.Scan(94), &dropped);
+  const PointCloud source = ReadVelodyne(sequence.Scan(95), &dropped);
   PointCloud queries;
   for (std::size_t i = 0; i < source.size(); i += source.size() / 40) {
     testing_support::AddPoint(source.Point(i), &queries);

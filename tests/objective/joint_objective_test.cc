@@ -10,10 +10,13 @@
 #include "src/minimizer/minimizer.h"
 #include "src/objective/loss.h"
 #include "src/objective/objective_set.h"
+#include "tests/support/prepared.h"
 #include "tests/support/scenes.h"
 
 namespace icpscape {
 namespace {
+
+using testing_support::AsPrepared;
 
 struct RoomPair {
   PointCloud source = testing_support::Room(3000, 1, SE3d(), 0.005);
@@ -34,7 +37,7 @@ TEST(JointObjective, IsTheWeightedSumAndWhatCeresSees) {
   const RoomPair room;
   ObjectiveSetOptions options;
   options.loss = MakeLoss("huber", 0.02);
-  const ObjectiveSet set(room.source, room.target, room.features,
+  const ObjectiveSet set(AsPrepared(room.source, room.target, room.features),
                          {"edge_to_line", "planar_to_plane", "point_to_plane"}, options);
   const auto& o = set.objectives();
   const JointObjective joint({{&o[0], 2}, {&o[1], 0.5}, {&o[2], 1}});
@@ -114,7 +117,7 @@ TEST(JointObjective, EdgesAndPlanesTogetherFindTheMotion) {
   const SE3d motion = SE3d::Exp((Vec6() << 0, 0, 0.01, 0.05, 0.03, 0).finished());
   RoomPair room;
   room.source = testing_support::Room(3000, 1, motion.Inverse(), 0.005);
-  const ObjectiveSet set(room.source, room.target, room.features,
+  const ObjectiveSet set(AsPrepared(room.source, room.target, room.features),
                          {"edge_to_line", "planar_to_plane"}, {});
   const JointObjective joint({{&set.objectives()[0], 0.1}, {&set.objectives()[1], 1}});
   const MinimizerSummary summary = Minimize(joint, SE3d(), {});
@@ -124,7 +127,8 @@ TEST(JointObjective, EdgesAndPlanesTogetherFindTheMotion) {
 
 TEST(JointObjective, RefusesWeightsThatAreNone) {
   const RoomPair room;
-  const ObjectiveSet set(room.source, room.target, room.features, {"point_to_point"}, {});
+  const ObjectiveSet set(AsPrepared(room.source, room.target, room.features), {"point_to_point"},
+                         {});
   for (const double weight : {0.0, -1.0, std::nan("")}) {
     EXPECT_THROW(JointObjective({{&set.objectives()[0], weight}}), UsageError);
   }
@@ -132,7 +136,7 @@ TEST(JointObjective, RefusesWeightsThatAreNone) {
 
 TEST(ObjectiveSet, KindsShareAMatcherAndTakeTheirFeatures) {
   const RoomPair room;
-  const ObjectiveSet set(room.source, room.target, room.features,
+  const ObjectiveSet set(AsPrepared(room.source, room.target, room.features),
                          {"point_to_point", "symmetric", "edge_to_line", "planar_to_patch",
                           "edge_to_line_distance", "planar_to_plane"},
                          {});
@@ -144,7 +148,7 @@ TEST(ObjectiveSet, KindsShareAMatcherAndTakeTheirFeatures) {
   EXPECT_EQ(o[3].matcher().source().size(), 2572U);
   Features none = room.features;
   none.edge.assign(none.edge.size(), 0);
-  EXPECT_THROW(ObjectiveSet(room.source, room.target, none, {"edge_to_line"}, {}),
+  EXPECT_THROW(ObjectiveSet(AsPrepared(room.source, room.target, none), {"edge_to_line"}, {}),
                ComputationError);
 }
 

@@ -9,11 +9,13 @@
 #include "src/common/error.h"
 #include "src/objective/loss.h"
 #include "tests/support/message_of.h"
+#include "tests/support/prepared.h"
 #include "tests/support/scenes.h"
 
 namespace icpscape {
 namespace {
 
+using testing_support::AsPrepared;
 using testing_support::MessageOf;
 
 const SE3d kMotion = SE3d::Exp((Vec6() << 0.01, -0.005, 0.05, 0.3, 0.05, -0.02).finished());
@@ -41,7 +43,6 @@ ObjectiveSetOptions Lenient() {  // A random room has few edges as sharp as the 
   options.line.eigenvalue_ratio = options.patch.eigenvalue_ratio = 1.5;
   options.patch.max_smallest_eigenvalue_m2 = 1;
   options.loss = MakeLoss("huber", 0.1);
-  options.threads = 2;
   return options;
 }
 
@@ -71,7 +72,7 @@ TEST(ObjectiveSet, IsTheSameOverCloudsThatAreSearchableAlready) {
   const MetricClouds sources{SearchableCloud(room.source), SearchableCloud(edges),
                              SearchableCloud(planar)};
   const auto expect_same = [&](const std::vector<std::string>& metrics) {
-    ExpectSame(ObjectiveSet(room.source, room.target, features, metrics, Lenient()),
+    ExpectSame(ObjectiveSet(AsPrepared(room.source, room.target, features), metrics, Lenient()),
                ObjectiveSet(sources, {target, target, target}, metrics, Lenient()));
   };
   expect_same(all);
@@ -129,7 +130,7 @@ TEST(ObjectiveSet, GivesEachKindOfMetricItsOwnClouds) {
   Features everything{std::vector<char>(room.source.size(), 1),
                       std::vector<char>(room.source.size(), 1)};
   const auto alone = [&](const PointCloud& target, const char* metric) {
-    return ObjectiveSet(room.source, target, everything, {metric}, Lenient())
+    return ObjectiveSet(AsPrepared(room.source, target, everything), {metric}, Lenient())
         .objectives()[0]
         .Evaluate(kMotion, 1)
         .sums.cost;

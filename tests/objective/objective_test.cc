@@ -11,6 +11,7 @@
 #include "src/cloud/normals.h"
 #include "src/common/error.h"
 #include "src/io/kitti.h"
+#include "src/io/sequences.h"
 #include "src/matching/closest_point_matcher.h"
 #include "src/objective/loss.h"
 #include "tests/support/matchers.h"
@@ -278,14 +279,11 @@ TEST(Objective, AgreesWithAnIndependentImplementationOnRealScans) {
     double point_to_point, point_to_plane, symmetric;
   } const expected[] = {{95, 0.143, 0.062, 0.085}, {15, 0.232, 0.108, 0.152}};
   for (const auto& e : expected) {
-    const KittiSequence sequence(root, "00");
-    DroppedPoints dropped;
-    PointCloud source = ReadVelodyne(sequence.ScanPath(e.frame), &dropped);
-    PointCloud target = ReadVelodyne(sequence.ScanPath(e.frame - 1), &dropped);
-    EstimateNormals({}, 2, &source);
-    EstimateNormals({}, 2, &target);
-    const ClosestPointMatcher matcher(source, target);
-    const SE3d truth = sequence.RelativeMotion(e.frame - 1, e.frame);
+    ScanPair pair = OpenKittiSequence(root, "00").Pair(e.frame, e.frame - 1);
+    EstimateNormals({}, 2, &pair.source);
+    EstimateNormals({}, 2, &pair.target);
+    const ClosestPointMatcher matcher(pair.source, pair.target);
+    const SE3d truth = *pair.T_ground_truth;
     const auto rmse = [&](const char* metric) {
       return Objective(metric, matcher).Evaluate(truth, 2).Rmse();
     };

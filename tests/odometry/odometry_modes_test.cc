@@ -160,7 +160,7 @@ TEST_P(EveryMode, TakesEveryMetricAndRejection) {
   ForEachMetric([&](auto tag) {
     const std::string metric = decltype(tag)::Metric::kName;
     options = Options(Mode(), {metric});
-    options.preprocessing.voxel_m = NeedsFeatures(metric) ? 0 : 0.25;
+    options.preparation.voxel_m = NeedsFeatures(metric) ? 0 : 0.25;
     options.minimizer.max_iterations = 5;
     expect_motion(options, metric);
   });
