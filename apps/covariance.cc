@@ -20,13 +20,14 @@ std::string ReportPair(const std::vector<std::string>& metrics, CovarianceReport
                        Run* run) {
   const CovarianceOptions options = CovarianceFromFlags();
   Manifest* const manifest = run->manifest();
-  ScanPair pair = LoadPair(metrics, manifest);
-  FilterPair(&pair, manifest);
-  const ObjectiveSet set(pair.source, pair.target, pair.features, metrics, ObjectiveSetFromFlags());
+  ScanPair pair = ReadPair(manifest);
+  const SE3d T_initial = InitialPose(pair, manifest);
+  const PreparedPair scans = PrepareFromFlags(metrics, &pair, manifest);
+  const ObjectiveSet set(FilterFromFlags(scans, pair, manifest), metrics, ObjectiveSetFromFlags());
   for (const Objective& objective : set.objectives()) {
     report->AddPair(objective.metric(),
-                    RegisterWithUncertainty(objective, pair.T_initial, options,
-                                            LengthScaleFromFlags(), ThreadsFromFlags()),
+                    RegisterWithUncertainty(objective, T_initial, options, LengthScaleFromFlags(),
+                                            ThreadsFromFlags()),
                     options.cluster_m, manifest);
   }
   report->WritePair(run);

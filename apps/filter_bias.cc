@@ -46,37 +46,32 @@ void CheckFlags() {
   RequireFlag(FLAGS_samples >= 3, "samples", std::to_string(FLAGS_samples), "at least 3");
 }
 
-ScanPair FilteredWith(const SE3d& T_estimate, const ScanPair& pair) {
+PreparedPair FilteredWith(const SE3d& T_estimate, const PreparedPair& scans) {
   FilterOptions octree;
   octree.octree_voxel_m = OctreeVoxelFromFlags();
-  FilteredPair filtered = ApplyFilters(pair.source, pair.target, T_estimate, octree);
-  ScanPair result = pair;
-  result.features = pair.features.Select(filtered.keep_source);
-  result.source = std::move(filtered.source);
-  result.target = std::move(filtered.target);
-  return result;
+  return scans.Select(ApplyFilters(scans.source.cloud(), scans.target.cloud(), T_estimate, octree),
+                      ThreadsFromFlags());
 }
 
 // The minima of all metrics under filters with every error of T_e, and (as "unfiltered") without.
-FilterSweep SweepEstimate(const ScanPair& pair, const ErrorAxis& axis, Table* table) {
+FilterSweep SweepEstimate(const PreparedPair& scans, const ErrorAxis& axis, Table* table) {
   FilterSweep sweep = {axis, MetricsFromFlags(), {}, {}, {}};
-  const auto minima_of = [&](const ScanPair& scans, const std::string& error) {
-    const ObjectiveSet set(scans.source, scans.target, scans.features, sweep.metrics,
-                           ObjectiveSetFromFlags());
+  const auto minima_of = [&](const PreparedPair& pair, const std::string& error) {
+    const ObjectiveSet set(pair, sweep.metrics, ObjectiveSetFromFlags());
     std::vector<double> found;
     for (const Objective& objective : set.objectives()) {
       found.push_back(ArgminError(objective, axis, FLAGS_samples, ThreadsFromFlags()));
       table->AddRow({axis.name, axis.unit, objective.metric(), error, Number(found.back()),
-                     std::to_string(scans.source.size())});
+                     std::to_string(pair.source.cloud().size())});
     }
     return found;
   };
-  sweep.unfiltered = minima_of(pair, "unfiltered");
+  sweep.unfiltered = minima_of(scans, "unfiltered");
   sweep.minima.resize(sweep.metrics.size());
   Progress progress("filters, " + axis.name, FLAGS_steps);
   for (int i = 0; i < FLAGS_steps; ++i) {
     const double error = axis.range * (2.0 * i / (FLAGS_steps - 1) - 1);
-    const auto found = minima_of(FilteredWith(axis.pose(error), pair), Number(error));
+    const auto found = minima_of(FilteredWith(axis.pose(error), scans), Number(error));
     sweep.errors.push_back(error);
     for (std::size_t m = 0; m < found.size(); ++m) {
       sweep.minima[m].push_back(found[m]);
@@ -89,14 +84,16 @@ FilterSweep SweepEstimate(const ScanPair& pair, const ErrorAxis& axis, Table* ta
 void FilterBias() {
   CheckFlags();
   Run run;
-  const ScanPair pair = LoadPair(MetricsFromFlags(), run.manifest());
+  ScanPair pair = ReadPair(run.manifest());
+  const PreparedPair scans = PrepareFromFlags(MetricsFromFlags(), &pair, run.manifest());
   Table table({"sweep", "unit", "metric", "error_of_estimate", "argmin_error", "source_points"});
   for (const ErrorAxis& axis : {AlongPath(*pair.T_ground_truth, FLAGS_translation_range_m),
                                 Yaw(*pair.T_ground_truth, FLAGS_yaw_range_deg)}) {
-    ReportSweep(SweepEstimate(pair, axis, &table), run.manifest());
+    ReportSweep(SweepEstimate(scans, axis, &table), run.manifest());
   }
-  if (pair.T_prior && !pair.source.label.empty()) {
-    ReportRemoval(pair.source, pair.target, *pair.T_prior, OctreeVoxelFromFlags(), run.manifest());
+  if (pair.T_predicted && !scans.source.cloud().label.empty()) {
+    ReportRemoval(scans.source.cloud(), scans.target.cloud(), *pair.T_predicted,
+                  OctreeVoxelFromFlags(), run.manifest());
   }
   const std::filesystem::path path = run.File("filter_bias.csv");
   table.WriteCsv(path);

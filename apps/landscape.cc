@@ -10,6 +10,7 @@
 #include "apps/flags/pair.h"
 #include "apps/flags/pair_filters.h"
 #include "apps/reports/curves.h"
+#include "apps/reports/ground_truth_check.h"
 #include "apps/reports/iterates.h"
 #include "apps/reports/registration.h"
 #include "apps/run/app.h"
@@ -45,10 +46,10 @@ void CheckFlags() {
 }
 
 // Prints how far point-to-plane moves from the ground truth, and returns the pose for u = 1.
-SE3d ReferencePose(const ScanPair& pair, Manifest* manifest) {
+SE3d ReferencePose(const ScanPair& pair, const PreparedPair& scans, Manifest* manifest) {
   const bool is_refined = FLAGS_reference == "refined";
   ReportPose("motion", "motion", *pair.T_ground_truth, manifest);
-  const auto check = GroundTruthCheckOf(pair, is_refined, manifest);
+  const auto check = ReportGroundTruthCheck(pair, scans, is_refined, ThreadsFromFlags(), manifest);
   return is_refined ? check->T_refined : *pair.T_ground_truth;
 }
 
@@ -76,12 +77,12 @@ void Landscape() {
   const CurveOptions options = CurveFromFlags();
   Run run;
   Manifest* const manifest = run.manifest();
-  ScanPair pair = LoadPair(metrics, manifest);
-  const SE3d T_reference = ReferencePose(pair, manifest);
-  FilterPair(&pair, manifest);
-
-  const ObjectiveSet set(pair.source, pair.target, pair.features, metrics, ObjectiveSetFromFlags());
-  const Path path(pair.T_initial, T_reference, PathKindFromFlags());
+  ScanPair pair = ReadPair(manifest);
+  const SE3d T_initial = InitialPose(pair, manifest);
+  const PreparedPair scans = PrepareFromFlags(metrics, &pair, manifest);
+  const SE3d T_reference = ReferencePose(pair, scans, manifest);
+  const ObjectiveSet set(FilterFromFlags(scans, pair, manifest), metrics, ObjectiveSetFromFlags());
+  const Path path(T_initial, T_reference, PathKindFromFlags());
   std::vector<Curve> curves;
   {
     Progress progress("poses", options.samples);
@@ -89,11 +90,11 @@ void Landscape() {
         EvaluateCurves(set.objectives(), path, options, [&](int done) { progress.Show(done); });
   }
   manifest->AddTiming("landscape");
-  ReportMinima(curves, ColumnFromFlags(), (T_reference.t() - pair.T_initial.t()).norm(), manifest);
+  ReportMinima(curves, ColumnFromFlags(), (T_reference.t() - T_initial.t()).norm(), manifest);
   WriteCurves(curves, &run);
   if (FLAGS_iterates) {
     const PathSection section = {path, options.u_min, options.u_max};
-    const auto iterates = MinimizeEach(set.objectives(), pair.T_initial, MinimizerFromFlags());
+    const auto iterates = MinimizeEach(set.objectives(), T_initial, MinimizerFromFlags());
     ReportEnds(iterates, section, manifest);
     WriteIterates(iterates, section, &run);
     manifest->AddTiming("iterates");

@@ -6,8 +6,8 @@
 #include <string>
 #include <vector>
 
+#include "apps/flags/drive.h"
 #include "apps/flags/odometry.h"
-#include "apps/flags/sequence.h"
 #include "apps/reports/odometry.h"
 #include "apps/run/app.h"
 #include "apps/run/progress.h"
@@ -56,11 +56,11 @@ void Drive(ResumableOdometry* odometry) {
 
 void RunOdometry() {
   SetDefaultsOfMode();
-  CheckSequenceFlags();
+  CheckDriveFlags();
   const OdometryOptions options = OdometryFromFlags();
   RequireAtLeastZero("write_map_voxel_m", FLAGS_write_map_voxel_m);
   Run run;
-  const ScanSequence sequence = SequenceFromFlags(run.manifest());
+  const ScanSequence sequence = DriveFromFlags(run.manifest());
   Journal journal(run.Lasting("journal.txt"), JournalHeader(sequence),
                   FLAGS_restart ? Journal::Begin::kAnew : Journal::Begin::kWhereItEnds);
   ResumableOdometry odometry(sequence, options, FLAGS_write_map_voxel_m, &journal);

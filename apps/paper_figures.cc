@@ -13,8 +13,8 @@
 #include "apps/run/app.h"
 #include "apps/run/progress.h"
 #include "apps/run/run.h"
-#include "src/io/kitti.h"
-#include "src/simulation/scenes.h"
+#include "src/io/sequences.h"
+#include "src/simulation/simulated_sequence.h"
 
 namespace icpscape {
 namespace {
@@ -27,30 +27,21 @@ std::string TitleOf(const Figure& figure) {
              : "simulated " + figure.scene + ", seed " + std::to_string(SeedFromFlags());
 }
 
-PaperPair LoadPair(const Figure& figure, int threads, Manifest* manifest) {
-  PaperPair pair;
-  if (FromKitti()) {
-    const KittiSequence sequence(PaperScansFromFlags(), figure.sequence);
-    const int frame = FrameFromFlags(figure);
-    pair.T_target_source = sequence.RelativeMotion(frame - 1, frame);
-    pair.T_prior = sequence.RelativeMotion(frame - 2, frame - 1);
-    DroppedPoints dropped;
-    pair.source = ReadVelodyne(sequence.ScanPath(frame), &dropped);
-    pair.target = ReadVelodyne(sequence.ScanPath(frame - 1), &dropped);
-    for (const auto& path : {sequence.PosesPath(), sequence.CalibrationPath(),
-                             sequence.ScanPath(frame), sequence.ScanPath(frame - 1)}) {
-      manifest->AddInput(path);
-    }
-  } else {
-    SimulatedPair simulated =
-        SimulatePair(figure.scene, SeedFromFlags(), LidarFromFlags(), threads);
-    pair.source = std::move(simulated.source);
-    pair.target = std::move(simulated.target);
-    pair.T_target_source = simulated.T_target_source;
-    pair.T_prior = simulated.T_prior;
+// The scan of the figure and the one before it.
+ScanPair ReadPair(const Figure& figure, int threads, Manifest* manifest) {
+  if (!FromKitti()) {
+    return SimulatePair(figure.scene, SeedFromFlags(), LidarFromFlags(), threads);
   }
-  PrepareForMetrics(threads, &pair);
-  return pair;
+  const ScanSequence sequence = OpenKittiSequence(PaperScansFromFlags(), figure.sequence);
+  for (const std::filesystem::path& input : sequence.inputs) {
+    manifest->AddInput(input);
+  }
+  const int frame = FrameFromFlags(figure);
+  return sequence.Pair(frame, frame - 1, [&](const char*, const Scan& scan) {
+    manifest->AddInput(scan.file);
+    DroppedPoints dropped;
+    return scan.read(&dropped);
+  });
 }
 
 // Evaluates what the figures of one scene draw, over one pair.
@@ -58,24 +49,29 @@ void EvaluateScene(const std::vector<Figure>& figures, const CurveOptions& optio
                    std::map<std::string, PaperCurve>* drawn, ClaimInputs* inputs,
                    Manifest* manifest) {
   const Figure& first = figures.front();
-  const PaperPair pair = LoadPair(first, options.threads, manifest);
-  std::cout << TitleOf(first) << ": source " << pair.source.size() << " points ("
-            << pair.features.num_edge << " edges), target " << pair.target.size() << " points\n";
-  ReportPose("  motion", "motion_" + first.scene, pair.T_target_source, manifest);
-  ReportPose("  T_e, the motion of the frame before, off", "prior_off_" + first.scene,
-             pair.T_target_source.Inverse() * pair.T_prior, manifest);
+  ScanPair pair = ReadPair(first, options.threads, manifest);
+  const SE3d T_ground_truth = pair.T_ground_truth.value();
+  const SE3d T_predicted = pair.T_predicted.value();
+  const PreparedPair scans =
+      PrepareForPaper(std::move(pair.source), std::move(pair.target), options.threads);
+  std::cout << TitleOf(first) << ": source " << scans.source.cloud().size() << " points ("
+            << scans.source.features()->num_edge << " edges), target "
+            << scans.target.cloud().size() << " points\n";
+  ReportPose("  motion", "motion_" + first.scene, T_ground_truth, manifest);
+  ReportPose("  predicted pose (T_e), off", "predicted_off_" + first.scene,
+             T_ground_truth.Inverse() * T_predicted, manifest);
   std::vector<FigureCurve> curves;
   std::set<Variant> variants;
   for (const Figure& figure : figures) {
-    inputs->motions[figure.name] = pair.T_target_source;
+    inputs->motions[figure.name] = T_ground_truth;
     for (const FigureCurve& curve : figure.curves) {
       curves.push_back(curve);
       variants.insert(curve.variant);
     }
   }
   Progress progress("poses of " + first.scene, options.samples * static_cast<int>(variants.size()));
-  for (auto& [file, curve] :
-       EvaluatePaperCurves(pair, curves, options, [&](int done) { progress.Show(done); })) {
+  for (auto& [file, curve] : EvaluatePaperCurves(scans, T_ground_truth, T_predicted, curves,
+                                                 options, [&](int done) { progress.Show(done); })) {
     inputs->curves[file] = curve.curve;
     (*drawn)[file] = std::move(curve);
   }

@@ -11,6 +11,7 @@
 #include "apps/flags/pair.h"
 #include "apps/flags/pair_filters.h"
 #include "apps/flags/starts.h"
+#include "apps/reports/ground_truth_check.h"
 #include "apps/reports/registration.h"
 #include "apps/run/app.h"
 #include "apps/run/progress.h"
@@ -56,24 +57,24 @@ void Register() {
   const MinimizerOptions options = MinimizerFromFlags();
   Run run;
   Manifest* const manifest = run.manifest();
-  ScanPair pair = LoadPair(metrics, manifest);
+  ScanPair pair = ReadPair(manifest);
+  const SE3d T_initial = InitialPose(pair, manifest);
+  const PreparedPair scans = PrepareFromFlags(metrics, &pair, manifest);
   std::optional<GroundTruthCheck> check;
   if (pair.T_ground_truth) {
-    check = GroundTruthCheckOf(pair, FLAGS_starts > 0, manifest);
+    check = ReportGroundTruthCheck(pair, scans, FLAGS_starts > 0, ThreadsFromFlags(), manifest);
   }
-  const PointCloud whole_source = pair.source;
-  FilterPair(&pair, manifest);
-
-  const ObjectiveSet set(pair.source, pair.target, pair.features, metrics, ObjectiveSetFromFlags());
+  const ObjectiveSet set(FilterFromFlags(scans, pair, manifest), metrics, ObjectiveSetFromFlags());
   const JointObjective objective = JointFromFlags(set.objectives());
-  const MinimizerSummary summary = Minimize(objective, pair.T_initial, options);
+  const MinimizerSummary summary = Minimize(objective, T_initial, options);
   manifest->AddTiming("register");
   if (!summary.Usable()) {
     throw ComputationError(objective.Name() + ": " + summary.message);
   }
   const SE3d& T = summary.T_target_source();
   ReportRegistration(objective.Name(), summary, &run);
-  WritePly(run.File("aligned.ply"), whole_source.Transformed(T));  // The source upon the target.
+  manifest->SetResult("searches_built", static_cast<double>(SearchesBuilt()));
+  WritePly(run.File("aligned.ply"), scans.source.cloud().Transformed(T));
   if (pair.T_ground_truth) {
     ReportPose("off the ground truth", "off", pair.T_ground_truth->Inverse() * T, manifest);
   }

@@ -11,6 +11,7 @@
 #include "apps/run/run.h"
 #include "src/common/error.h"
 #include "src/io/kitti.h"
+#include "src/io/sequences.h"
 #include "src/io/sha256.h"
 #include "src/io/transform.h"
 #include "src/simulation/dataset.h"
@@ -66,10 +67,17 @@ void WriteScene(const std::string& name, Run* run) {
       name, "scene " + name, poses, [&] { return std::move(scene.world); }, -kScanPeriodS, run);
 }
 
+std::vector<SE3d> LidarPoses(const SimulationPlan& plan) {
+  const ScanSequence sequence = OpenKittiSequence(plan.kitti_root, plan.drive);
+  if (sequence.T_world_lidar.empty()) {
+    throw InputError(KittiFiles(plan.kitti_root, plan.drive).Poses().string() +
+                     ": no poses; expected them, and calib.txt, to drive along.");
+  }
+  return sequence.T_world_lidar;
+}
+
 void WriteDrive(const SimulationPlan& plan, Run* run) {
-  const std::vector<SE3d> poses = plan.kitti_root.empty()
-                                      ? TownRoute()
-                                      : KittiSequence(plan.kitti_root, plan.drive).LidarPoses();
+  const std::vector<SE3d> poses = plan.kitti_root.empty() ? TownRoute() : LidarPoses(plan);
   const FrameRange& frames = plan.frames;
   const int count = static_cast<int>(poses.size());
   if (frames.first >= count || frames.last >= count) {

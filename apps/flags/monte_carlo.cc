@@ -4,11 +4,10 @@
 #include <gflags/gflags.h>
 
 #include "apps/flags/covariance.h"
-#include "apps/flags/features.h"
 #include "apps/flags/flag.h"
 #include "apps/flags/lidar.h"
 #include "apps/flags/objective.h"
-#include "apps/flags/preprocessing.h"
+#include "apps/flags/preparation.h"
 #include "apps/flags/run.h"
 #include "apps/flags/starts.h"
 #include "src/common/text.h"
@@ -53,8 +52,7 @@ MonteCarloOptions MonteCarloFromFlags() {
   options.lidar = LidarFromFlags();
   options.sensor = static_cast<Sensor>(IndexOfName("sensor", FLAGS_sensor, {"fixed", "redrawn"}));
   options.metrics = MetricsFromFlags();
-  options.normals = PreprocessingFromFlags(options.metrics).normals;
-  options.features = FeaturesFromFlags();
+  options.preparation = PreparationFromFlags(options.metrics);
   options.objective = ObjectiveSetFromFlags();
   options.start = StartsFromFlags();
   options.start.minimizer = PreciseMinimizer();

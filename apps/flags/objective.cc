@@ -44,7 +44,6 @@ ObjectiveSetOptions ObjectiveSetFromFlags() {
   options.loss = MakeLoss(FLAGS_loss, FLAGS_loss_scale_m);
   options.line = LocalFitFromFlags();
   options.patch = options.line;
-  options.threads = ThreadsFromFlags();
   return options;
 }
 

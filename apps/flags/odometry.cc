@@ -11,7 +11,7 @@
 #include "apps/flags/joint.h"
 #include "apps/flags/minimizer.h"
 #include "apps/flags/objective.h"
-#include "apps/flags/preprocessing.h"
+#include "apps/flags/preparation.h"
 #include "apps/flags/run.h"
 #include "src/common/text.h"
 
@@ -57,7 +57,7 @@ OdometryOptions OdometryFromFlags() {
   options.mode = OdometryModeFromName(FLAGS_mode);
   options.metrics = MetricsFromFlags();
   options.weights = WeightsFromFlags();
-  options.preprocessing = PreprocessingFromFlags(options.metrics);
+  options.preparation = PreparationFromFlags(options.metrics);
   options.filters = FiltersFromFlags();
   options.objective = ObjectiveSetFromFlags();
   options.minimizer = MinimizerFromFlags();

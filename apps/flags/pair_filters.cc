@@ -9,7 +9,7 @@
 #include <utility>
 
 #include "apps/flags/filters.h"
-#include "apps/run/app.h"
+#include "apps/flags/flag.h"
 #include "src/common/error.h"
 #include "src/filtering/filter_statistics.h"
 #include "src/io/transform.h"
@@ -35,11 +35,11 @@ SE3d Estimate(const ScanPair& pair, Manifest* manifest) {
     return *pair.T_ground_truth;
   }
   if (FLAGS_filter_estimate == "previous_motion") {
-    if (!pair.T_prior) {
+    if (!pair.T_predicted) {
       throw UsageError(
           "--filter_estimate=previous_motion: expected an input that knows the motion before.");
     }
-    return *pair.T_prior;
+    return *pair.T_predicted;
   }
   manifest->AddInput(FLAGS_filter_estimate);
   return ReadTransform(FLAGS_filter_estimate);
@@ -56,25 +56,23 @@ void CheckFilterFlags() {
               "previous_motion, identity, ground_truth or a file");
 }
 
-void FilterPair(ScanPair* pair, Manifest* manifest) {
+PreparedPair FilterFromFlags(const PreparedPair& scans, const ScanPair& pair, Manifest* manifest) {
   const FilterOptions options = FiltersFromFlags();
   if (!options.Any()) {
-    return;
+    return scans;
   }
-  const SE3d T_e = options.NeedEstimate() ? Estimate(*pair, manifest) : SE3d();
-  FilteredPair filtered =
-      ApplyFilters(pair->source, pair->target, T_e, options,
-                   [&](const std::string& name, const FilteredPair& kept) {
-                     const double source = CountKept(kept.keep_source).Fraction();
-                     const double target = CountKept(kept.keep_target).Fraction();
+  const SE3d T_e = options.NeedEstimate() ? Estimate(pair, manifest) : SE3d();
+  const KeptPoints kept =
+      ApplyFilters(scans.source.cloud(), scans.target.cloud(), T_e, options,
+                   [&](const std::string& name, const KeptPoints& kept_here) {
+                     const double source = CountKept(kept_here.source).Fraction();
+                     const double target = CountKept(kept_here.target).Fraction();
                      std::printf("%s: keeps %.1f %% of the source, %.1f %% of the target\n",
                                  name.c_str(), 100 * source, 100 * target);
                      manifest->SetResult(name + "_kept_source", source);
                      manifest->SetResult(name + "_kept_target", target);
                    });
-  pair->features = pair->features.Select(filtered.keep_source);
-  pair->source = std::move(filtered.source);
-  pair->target = std::move(filtered.target);
+  return scans.Select(kept, ThreadsFromFlags());
 }
 
 }  // namespace icpscape

@@ -3,16 +3,22 @@
 
 #include <gflags/gflags.h>
 
-#include <iostream>
-
-#include "apps/run/app.h"
+#include "apps/flags/flag.h"
+#include "apps/flags/lidar.h"
+#include "apps/flags/run.h"
 #include "src/common/error.h"
-#include "src/io/kitti.h"
+#include "src/io/sequences.h"
 #include "src/io/trajectory.h"
+#include "src/simulation/scenes.h"
+#include "src/simulation/simulated_sequence.h"
 
-static const icpscape::FlagGroup group(__FILE__, "Input: a drive");
+static const icpscape::FlagGroup group(__FILE__, "Input: scans");
 
-DEFINE_string(kitti_root, "", "Folder of the KITTI odometry data (with sequences/ and poses/).");
+DEFINE_string(scene, "",
+              "Simulated scans of --seed, without any data: three of straight_street, right_turn, "
+              "highway or highway_overtaking, or a drive of 228 m through a town.");
+static const icpscape::FlagMark scene_mark(&FLAGS_scene, icpscape::kShown);
+DEFINE_string(kitti_root, "", "Or: folder of the KITTI odometry data (sequences/ and poses/).");
 static const icpscape::FlagMark kitti_root_mark(&FLAGS_kitti_root, icpscape::kAside);
 DEFINE_string(sequence, "00", "KITTI sequence, with --kitti_root.");
 static const icpscape::FlagMark sequence_mark(&FLAGS_sequence, icpscape::kShown);
@@ -20,61 +26,72 @@ DEFINE_string(scans, "",
               "Or: a folder of .bin, .pcd or .ply scans, or a raw drive of KITTI's (a folder with "
               "velodyne_points/).");
 static const icpscape::FlagMark scans_mark(&FLAGS_scans, icpscape::kAside);
-DEFINE_string(
-    ground_truth, "",
-    "With --scans: trajectory of the lidar, KITTI's or TUM's format, a pose for each scan "
-    "of the folder.");
+DEFINE_string(ground_truth, "",
+              "The truth about your own scans: of --scans the trajectory of the lidar, in KITTI's "
+              "or TUM's format, a pose for each scan of the folder; of two files the 4x4 "
+              "T_target_source as text.");
 static const icpscape::FlagMark ground_truth_mark(&FLAGS_ground_truth, icpscape::kAside);
-DEFINE_string(frames, "", "First and last scan, as in 0:99; none is all.");
-DEFINE_bool(reverse, false, "Drive backwards: the last scan comes first.");
-static const icpscape::FlagMark reverse_mark(&FLAGS_reverse, icpscape::kShown);
+DEFINE_bool(reverse, false,
+            "The other way round: source and target swap, or the last scan of a drive comes "
+            "first.");
+
+static const icpscape::FlagMark reverse_mark(&FLAGS_reverse,
+                                             icpscape::kShown | icpscape::kNotOfDraws);
 
 namespace icpscape {
 
+bool SceneIsGiven() { return !FLAGS_scene.empty(); }
+bool SceneOfThreeScans() { return SceneIsGiven() && FLAGS_scene != kTown; }
+
+bool SequenceIsGiven() {
+  return SceneIsGiven() || !FLAGS_kitti_root.empty() || !FLAGS_scans.empty();
+}
+
 void CheckSequenceFlags() {
-  if (FLAGS_kitti_root.empty() == FLAGS_scans.empty()) {
-    throw UsageError("expected --kitti_root=DIR --sequence=SS, or --scans=DIR, and not both.");
+  const int given = (FLAGS_scene.empty() ? 0 : 1) + (FLAGS_kitti_root.empty() ? 0 : 1) +
+                    (FLAGS_scans.empty() ? 0 : 1);
+  if (given != 1) {
+    throw UsageError("expected one of --scene=NAME, --kitti_root=DIR and --scans=DIR.");
   }
   RequireFlag(FLAGS_ground_truth.empty() || !FLAGS_scans.empty(), "ground_truth",
-              FLAGS_ground_truth, "--scans with it (KITTI's sequences have their poses)");
-  FrameRangeFromText(FLAGS_frames);
+              FLAGS_ground_truth, "--scans with it: scenes and KITTI's sequences have their poses");
+  if (SceneIsGiven()) {
+    if (FLAGS_scene != kTown) {
+      CheckSceneName(FLAGS_scene);
+    }
+    LidarFromFlags();
+    SeedFromFlags();
+  }
 }
 
 ScanSequence SequenceFromFlags(Manifest* manifest) {
-  const FrameRange frames = FrameRangeFromText(FLAGS_frames);
-  ScanSequence sequence;
-  if (!FLAGS_kitti_root.empty()) {
-    sequence = OpenKittiSequence(FLAGS_kitti_root, FLAGS_sequence, frames);
-    const KittiSequence kitti(FLAGS_kitti_root, FLAGS_sequence);
-    for (const std::filesystem::path& path : {kitti.CalibrationPath(), kitti.PosesPath()}) {
-      if (std::filesystem::exists(path)) {
-        manifest->AddInput(path);
-      }
-    }
-  } else {
-    sequence = OpenScanFolder(FLAGS_scans, frames);
-    if (!FLAGS_ground_truth.empty()) {
-      const std::vector<SE3d> poses = ReadTrajectory(FLAGS_ground_truth).T_world_body;
-      const std::size_t all = OpenScanFolder(FLAGS_scans).scans.size();
-      if (poses.size() != all) {
-        throw InputError(FLAGS_ground_truth + ": " + std::to_string(poses.size()) +
-                         " poses; expected one for each of the " + std::to_string(all) +
-                         " scans in " + FLAGS_scans + ".");
-      }
-      const auto begin = poses.begin() + frames.first;
-      sequence.T_world_lidar = {begin, begin + static_cast<std::ptrdiff_t>(sequence.scans.size())};
-      manifest->AddInput(FLAGS_ground_truth);
+  if (SceneIsGiven()) {
+    return SimulatedSequence(FLAGS_scene, SeedFromFlags(), LidarFromFlags(), ThreadsFromFlags());
+  }
+  ScanSequence sequence = FLAGS_scans.empty() ? OpenKittiSequence(FLAGS_kitti_root, FLAGS_sequence)
+                                              : OpenScanFolder(FLAGS_scans);
+  if (!FLAGS_scans.empty() && !FLAGS_ground_truth.empty()) {
+    sequence.T_world_lidar = ReadTrajectory(FLAGS_ground_truth).T_world_body;
+    sequence.poses_file = FLAGS_ground_truth;
+    sequence.inputs.push_back(FLAGS_ground_truth);
+    if (sequence.T_world_lidar.size() != sequence.scans.size()) {
+      throw InputError(FLAGS_ground_truth + ": " + std::to_string(sequence.T_world_lidar.size()) +
+                       " poses; expected one for each of the " +
+                       std::to_string(sequence.scans.size()) + " scans in " + FLAGS_scans + ".");
     }
   }
-  if (FLAGS_reverse) {
-    sequence.Reverse();
+  for (const std::filesystem::path& input : sequence.inputs) {
+    manifest->AddInput(input);
   }
-  std::cout << sequence.title << ": " << sequence.scans.size() << " scans, "
-            << sequence.scans.front().filename().string() << " to "
-            << sequence.scans.back().filename().string()
-            << (sequence.T_world_lidar.empty() ? ", no ground truth" : "")
-            << (sequence.times_are_measured ? "" : ", no times: 10 Hz") << std::endl;
   return sequence;
 }
+
+bool FlagsHaveGroundTruth() {
+  return SceneIsGiven() || !FLAGS_kitti_root.empty() || !FLAGS_ground_truth.empty();
+}
+
+const std::string& GroundTruthFile() { return FLAGS_ground_truth; }
+
+bool ReverseFromFlags() { return FLAGS_reverse; }
 
 }  // namespace icpscape

@@ -2,18 +2,34 @@
 #ifndef ICPSCAPE_APPS_FLAGS_SEQUENCE_H_
 #define ICPSCAPE_APPS_FLAGS_SEQUENCE_H_
 
+#include "src/cloud/scan_sequence.h"
 #include "src/io/manifest.h"
-#include "src/io/scan_sequence.h"
 
 namespace icpscape {
 
-/// Refuses what can be seen to be wrong before any file is read. Throws UsageError.
+/// Whether --scene, --kitti_root or --scans names a sequence.
+bool SequenceIsGiven();
+
+/// Whether --scene is given, and names three scans rather than a drive.
+bool SceneIsGiven();
+bool SceneOfThreeScans();
+
+/// Refuses what can be seen to be wrong before any file is read: it must be one of --scene,
+/// --kitti_root and --scans. Throws UsageError.
 void CheckSequenceFlags();
 
-/// The drive of --kitti_root --sequence or --scans, of it --frames, and --reverse; for --scans with
-/// the truth of --ground_truth. Prints what there is and records the small inputs. Throws
-/// InputError.
+/// The sequence with all its frames, and the truth of --ground_truth for --scans. Records the small
+/// inputs. Throws InputError.
 ScanSequence SequenceFromFlags(Manifest* manifest);
+
+/// Whether the sequence has a ground truth, as far as the flags tell.
+bool FlagsHaveGroundTruth();
+
+/// --ground_truth; empty where it is not given.
+const std::string& GroundTruthFile();
+
+/// --reverse.
+bool ReverseFromFlags();
 
 }  // namespace icpscape
 

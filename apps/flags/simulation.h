@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "src/io/scan_sequence.h"
+#include "src/io/sequences.h"
 
 namespace icpscape {
 

@@ -28,13 +28,13 @@ void ReportSweep(const FilterSweep& sweep, Manifest* manifest) {
 void ReportRemoval(const PointCloud& source, const PointCloud& target, const SE3d& T_estimate,
                    double voxel_m, Manifest* manifest) {
   const auto is_moving = [](std::int32_t label) { return IsMoving(SemanticOf(label)); };
-  const FilteredPair filtered = OctreeCorrespondenceFilter(source, target, T_estimate, {voxel_m});
-  const RemovalScore score = ScoreRemoval(source, filtered.keep_source, is_moving);
+  const KeptPoints kept = OctreeCorrespondenceFilter(source, target, T_estimate, {voxel_m});
+  const RemovalScore score = ScoreRemoval(source, kept.source, is_moving);
   // Two points in one voxel are at most its diagonal apart.
-  const DynamicRemains remains = FindDynamicRemains(
-      source, target, filtered.keep_source, T_estimate, std::sqrt(3.0) * voxel_m, is_moving);
-  std::printf("T_e = previous motion: keeps %.1f %% of the source\n",
-              100 * CountKept(filtered.keep_source).Fraction());
+  const DynamicRemains remains = FindDynamicRemains(source, target, kept.source, T_estimate,
+                                                    std::sqrt(3.0) * voxel_m, is_moving);
+  std::printf("T_e = predicted pose: keeps %.1f %% of the source\n",
+              100 * CountKept(kept.source).Fraction());
   std::printf("moving points: %zu; removed: %zu; recall %.3f, precision %.3f\n", score.dynamic,
               score.dynamic_removed, score.Recall(), score.Precision());
   std::printf(

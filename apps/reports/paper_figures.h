@@ -9,7 +9,7 @@
 #include "apps/run/run.h"
 #include "src/paper/claims.h"
 #include "src/paper/figures.h"
-#include "src/paper/pair.h"
+#include "src/paper/paper_curves.h"
 
 namespace icpscape {
 

@@ -1,33 +1,48 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "src/cloud/searchable_cloud.h"
 
-#include <utility>
-
 namespace icpscape {
 
-SearchableCloud::SearchableCloud(const PointCloud& cloud, int threads)
-    : SearchableCloud(cloud, NeighborSearch(cloud.View(), threads)) {}
-
-SearchableCloud::SearchableCloud(const PointCloud& cloud, NeighborSearch search)
-    : cloud_(&cloud), search_(std::move(search)) {
-  const std::vector<std::int32_t>& order = search_.Order();
-  auto shared = std::make_shared<Shared>();
-  shared->place.assign(cloud.size(), -1);
-  for (std::size_t place = 0; place < order.size(); ++place) {
-    shared->place[static_cast<std::size_t>(order[place])] = static_cast<std::int32_t>(place);
+SearchableCloud::Index::Index(const PointCloud& cloud, NeighborSearch built)
+    : search(std::move(built)) {
+  const std::vector<std::int32_t>& order = search.Order();
+  place.assign(cloud.size(), -1);
+  for (std::size_t k = 0; k < order.size(); ++k) {
+    place[static_cast<std::size_t>(order[k])] = static_cast<std::int32_t>(k);
   }
-  for (std::vector<float>* normals : {&shared->nx, &shared->ny, &shared->nz}) {
+  for (std::vector<float>* normals : {&nx, &ny, &nz}) {
     normals->resize(order.size() + kPadding);
   }
-  for (std::size_t place = 0; place < order.size() && cloud.has_normals(); ++place) {
-    const auto i = static_cast<std::size_t>(order[place]);
+  for (std::size_t k = 0; k < order.size() && cloud.has_normals(); ++k) {
+    const auto i = static_cast<std::size_t>(order[k]);
     if (cloud.NormalIsValid(i)) {
-      shared->nx[place] = cloud.nx[i];
-      shared->ny[place] = cloud.ny[i];
-      shared->nz[place] = cloud.nz[i];
+      nx[k] = cloud.nx[i];
+      ny[k] = cloud.ny[i];
+      nz[k] = cloud.nz[i];
     }
   }
-  shared_ = std::move(shared);
+}
+
+SearchableCloud::SearchableCloud(PointCloud cloud, int threads)
+    : shared_(std::make_shared<const Shared>(std::move(cloud), threads)) {}
+
+SearchableCloud::SearchableCloud(PointCloud cloud, NeighborSearch search)
+    : SearchableCloud(std::move(cloud)) {
+  Build(std::move(search));
+}
+
+void SearchableCloud::Build(NeighborSearch search) const {
+  shared_->index = std::make_unique<const Index>(shared_->cloud, std::move(search));
+  shared_->built.store(shared_->index.get(), std::memory_order_release);
+}
+
+const SearchableCloud::Index& SearchableCloud::Build() const {
+  std::call_once(shared_->once, [this] {
+    if (shared_->built.load(std::memory_order_acquire) == nullptr) {
+      Build(NeighborSearch(shared_->cloud.View(), shared_->threads));
+    }
+  });
+  return *shared_->index;
 }
 
 }  // namespace icpscape

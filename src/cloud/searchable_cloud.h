@@ -2,7 +2,11 @@
 #ifndef ICPSCAPE_SRC_CLOUD_SEARCHABLE_CLOUD_H_
 #define ICPSCAPE_SRC_CLOUD_SEARCHABLE_CLOUD_H_
 
+#include <atomic>
+#include <cstdint>
 #include <memory>
+#include <mutex>
+#include <utility>
 #include <vector>
 
 #include "src/cloud/point_cloud.h"
@@ -10,36 +14,58 @@
 
 namespace icpscape {
 
-/// A cloud as matching needs it: with the search over its points. Building one costs about as much
-/// as matching a scan twice, so whoever needs it in several places makes one and hands out copies,
-/// which share it.
+/// A cloud with the search over its points, as matching needs it. Copies share both, so that a
+/// search is built once however many matchers use it. It is built at its first use: whoever only
+/// reads the points does not pay for it.
 class SearchableCloud {
  public:
-  /// Not explicit: a cloud is searchable; more threads only shorten the building. It must outlive
-  /// this object and its copies, unchanged.
-  SearchableCloud(const PointCloud& cloud, int threads = 1);  // NOLINT(google-explicit-constructor)
+  /// Not explicit: a cloud is searchable. Takes the cloud; more threads only shorten the building.
+  SearchableCloud(PointCloud cloud, int threads = 1);  // NOLINT(google-explicit-constructor)
 
-  /// With a search over the cloud's points that is there already.
-  SearchableCloud(const PointCloud& cloud, NeighborSearch search);
+  /// With a search over the cloud's points that was built before.
+  SearchableCloud(PointCloud cloud, NeighborSearch search);
 
-  const PointCloud& cloud() const { return *cloud_; }
-  const NeighborSearch& search() const { return search_; }
+  const PointCloud& cloud() const { return shared_->cloud; }
+  /// With which the search is built.
+  int threads() const { return shared_->threads; }
+  const NeighborSearch& search() const { return index().search; }
   /// The points and their normals in the order of search().Order(), padded: what is near in space
   /// is near in the memory. A point without a normal has (0, 0, 0).
-  PointsView points() const { return search_.OrderedPoints(); }
+  PointsView points() const { return search().OrderedPoints(); }
   PointsView normals() const {
-    return {shared_->nx.data(), shared_->ny.data(), shared_->nz.data(), points().size};
+    const Index& of = index();
+    return {of.nx.data(), of.ny.data(), of.nz.data(), of.search.OrderedPoints().size};
   }
-  /// Where in that order the point of an index is; -1 for one that is not finite.
-  std::int32_t Place(std::size_t index) const { return shared_->place[index]; }
+  /// The place of a point in that order; -1 for a point that is not finite.
+  std::int32_t Place(std::size_t point) const { return index().place[point]; }
 
  private:
-  const PointCloud* cloud_;
-  NeighborSearch search_;
-  struct Shared {
-    std::vector<float> nx, ny, nz;
-    std::vector<std::int32_t> place;
+  // What the search adds to the cloud.
+  struct Index {
+    Index(const PointCloud& cloud, NeighborSearch built);
+
+    NeighborSearch search;
+    std::vector<float> nx, ny, nz;    // In the order of the search.
+    std::vector<std::int32_t> place;  // Of each point in that order.
   };
+  struct Shared {
+    Shared(PointCloud c, int t) : cloud(std::move(c)), threads(t) {}
+
+    const PointCloud cloud;
+    const int threads;
+    mutable std::once_flag once;
+    mutable std::unique_ptr<const Index> index;
+    mutable std::atomic<const Index*> built = nullptr;
+  };
+
+  // Inline and without a lock once it is built: asked for every pair.
+  const Index& index() const {
+    const Index* built = shared_->built.load(std::memory_order_acquire);
+    return built != nullptr ? *built : Build();
+  }
+  const Index& Build() const;
+  void Build(NeighborSearch search) const;
+
   std::shared_ptr<const Shared> shared_;
 };
 

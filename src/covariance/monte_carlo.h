@@ -9,8 +9,6 @@
 #include <string>
 #include <vector>
 
-#include "src/cloud/features.h"
-#include "src/cloud/normals.h"
 #include "src/covariance/consistency.h"
 #include "src/covariance/registration_uncertainty.h"
 #include "src/minimizer/random_starts.h"
@@ -31,9 +29,8 @@ struct MonteCarloOptions {
   LidarOptions lidar;
   Sensor sensor = Sensor::kFixed;
   std::vector<std::string> metrics = {"point_to_plane"};
-  NeighborhoodOptions normals;
-  FeatureOptions features;        ///< Where a metric needs them.
-  ObjectiveSetOptions objective;  ///< Its threads are not used.
+  PreparationOptions preparation;
+  ObjectiveSetOptions objective;
   /// One start per draw; count, seed and the minimizer's threads are not used. Converged is where
   /// the stop rule leaves less than the errors that are measured: see PreciseMinimizer.
   RandomStartOptions start;

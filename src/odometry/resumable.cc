@@ -5,7 +5,6 @@
 #include <utility>
 
 #include "src/common/error.h"
-#include "src/io/point_files.h"
 #include "src/io/sha256.h"
 
 namespace icpscape {
@@ -47,7 +46,7 @@ void ResumableOdometry::ForScans(std::size_t begin, std::size_t end,
     take(i);
     if (map_) {
       NamingTheScan(i, [&] {
-        map_->Insert(odometry_.last_scan()->cloud, records_.back().result.T_world_lidar,
+        map_->Insert(odometry_.last_scan()->cloud(), records_.back().result.T_world_lidar,
                      static_cast<int>(i));
       });
     }
@@ -59,7 +58,7 @@ void ResumableOdometry::ForScans(std::size_t begin, std::size_t end,
 
 PointCloud ResumableOdometry::Read(std::size_t i) const {
   DroppedPoints dropped;
-  return ReadPointFile(sequence_.scans[i], &dropped);
+  return sequence_.scans[i].read(&dropped);
 }
 
 // Errors of the odometry do not know which file a scan comes from.
@@ -67,18 +66,18 @@ void ResumableOdometry::NamingTheScan(std::size_t i, const std::function<void()>
   try {
     use();
   } catch (const InputError& error) {
-    throw InputError(sequence_.scans[i].string() + ": " + error.what());
+    throw InputError(sequence_.scans[i].Place() + ": " + error.what());
   }
 }
 
 void ResumableOdometry::ReplayScan(std::size_t i) {
-  const FrameRecord record = ParseFrameRecord(
-      journal_.records()[i], "journal, scan " + sequence_.scans[i].filename().string());
-  if (record.scan_sha256 != Sha256(sequence_.scans[i])) {
-    throw InputError(sequence_.scans[i].string() +
+  const FrameRecord record =
+      ParseFrameRecord(journal_.records()[i], "journal, scan " + sequence_.scans[i].name);
+  PointCloud scan = Read(i);
+  if (record.scan_sha256 != Sha256OfScan(sequence_.scans[i].file, scan)) {
+    throw InputError(sequence_.scans[i].Place() +
                      ": is not the scan of the journal; expected it unchanged, or a restart.");
   }
-  PointCloud scan = Read(i);
   NamingTheScan(i, [&] { odometry_.Replay(std::move(scan), record.result); });
   records_.push_back(record);
 }
@@ -87,7 +86,7 @@ void ResumableOdometry::RegisterScan(std::size_t i) {
   FrameRecord record;
   const Clock::time_point start = Clock::now();
   PointCloud scan = Read(i);
-  record.scan_sha256 = Sha256(sequence_.scans[i]);
+  record.scan_sha256 = Sha256OfScan(sequence_.scans[i].file, scan);
   record.read_s = SecondsSince(start);
   const Clock::time_point read = Clock::now();
   NamingTheScan(i, [&] { record.result = odometry_.Add(std::move(scan)); });

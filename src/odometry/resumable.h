@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "src/io/journal.h"
-#include "src/io/scan_sequence.h"
+#include "src/io/sequences.h"
 #include "src/odometry/frame_record.h"
 #include "src/odometry/odometry.h"
 #include "src/odometry/voxel_map.h"

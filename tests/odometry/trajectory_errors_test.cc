@@ -221,7 +221,7 @@ TEST(KittiSegmentErrors, AgreesWithTheSecondMethodOnKitti) {
   ICPSCAPE_SKIP_WITHOUT_KITTI();
   for (const char* sequence : {"00", "07"}) {
     ExpectAgreesWithTheSecondMethod(
-        ReadTrajectory(KittiSequence(KittiRoot(), sequence).PosesPath()).T_world_body);
+        ReadTrajectory(KittiFiles(KittiRoot(), sequence).Poses()).T_world_body);
   }
 }
 

@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "apps/flags/preprocessing.h"
+#include "apps/flags/preparation.h"
 
 #include <gflags/gflags.h>
 
 #include <algorithm>
 #include <cmath>
 
+#include "apps/flags/flag.h"
 #include "apps/flags/objective.h"
-#include "apps/run/app.h"
 #include "src/common/text.h"
 
 static const icpscape::FlagGroup group(__FILE__, "Preparation of a scan");
@@ -26,7 +26,7 @@ DEFINE_double(normal_radius_m, 0, "If positive: all points within this radius in
 
 namespace icpscape {
 
-PreprocessingOptions PreprocessingFromFlags(const std::vector<std::string>& metrics) {
+PreparationOptions PreparationFromFlags(const std::vector<std::string>& metrics) {
   RequireFlag(FLAGS_normal_neighbors >= 3 && FLAGS_normal_neighbors <= 1000, "normal_neighbors",
               std::to_string(FLAGS_normal_neighbors), "at least 3, at most 1000");
   RequireFlag(FLAGS_normal_radius_m >= 0 && std::isfinite(FLAGS_normal_radius_m), "normal_radius_m",
@@ -39,7 +39,7 @@ PreprocessingOptions PreprocessingFromFlags(const std::vector<std::string>& metr
   RequireFlag(FLAGS_voxel_m == 0 || of_features == metrics.end(), "voxel_m", Number(FLAGS_voxel_m),
               "0 with " + (of_features == metrics.end() ? "" : *of_features) +
                   ", whose edge and planar points are those of whole scan lines");
-  PreprocessingOptions options;
+  PreparationOptions options;
   options.elevation_correction_deg = FLAGS_elevation_correction_deg;
   options.voxel_m = FLAGS_voxel_m;
   options.normals.num_neighbors = FLAGS_normal_neighbors;

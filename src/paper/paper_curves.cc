@@ -1,10 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "src/paper/pair.h"
+#include "src/paper/paper_curves.h"
 
 #include <utility>
 
-#include "src/cloud/normals.h"
-#include "src/cloud/rings.h"
 #include "src/filtering/ego_blind_spot.h"
 #include "src/filtering/filter_chain.h"
 #include "src/filtering/octree_correspondence_filter.h"
@@ -28,21 +26,20 @@ FilterOptions FiltersOf(Variant variant) {
 
 }  // namespace
 
-void PrepareForMetrics(int threads, PaperPair* pair) {
-  EstimateNormals({}, threads, &pair->source);
-  EstimateNormals({}, threads, &pair->target);
-  RecoverRings(&pair->source);
-  pair->features = ExtractFeatures(
-      pair->source, ConventionalFeatureOptions(SmoothnessFormula::kPrinted), threads);
+PreparedPair PrepareForPaper(PointCloud source, PointCloud target, int threads) {
+  PreparationOptions options;
+  options.features = ConventionalFeatureOptions(SmoothnessFormula::kPrinted);
+  return PreparePair(std::move(source), std::move(target),
+                     kSourceNormal | kTargetNormal | kTargetLine | kTargetPatch, options, threads);
 }
 
-PaperPair Filtered(const PaperPair& pair, Variant variant, const SE3d& T_estimate) {
-  FilteredPair filtered = ApplyFilters(pair.source, pair.target, T_estimate, FiltersOf(variant));
-  PaperPair result = pair;
-  result.features = pair.features.Select(filtered.keep_source);
-  result.source = std::move(filtered.source);
-  result.target = std::move(filtered.target);
-  return result;
+PreparedPair Filtered(const PreparedPair& scans, Variant variant, const SE3d& T_estimate,
+                      int threads) {
+  const FilterOptions filters = FiltersOf(variant);
+  return filters.Any() ? scans.Select(ApplyFilters(scans.source.cloud(), scans.target.cloud(),
+                                                   T_estimate, filters),
+                                      threads)
+                       : scans;
 }
 
 ObjectiveSetOptions OptionsOf(Variant variant) {
@@ -53,7 +50,9 @@ ObjectiveSetOptions OptionsOf(Variant variant) {
   return options;
 }
 
-std::map<std::string, PaperCurve> EvaluatePaperCurves(const PaperPair& pair,
+std::map<std::string, PaperCurve> EvaluatePaperCurves(const PreparedPair& scans,
+                                                      const SE3d& T_ground_truth,
+                                                      const SE3d& T_predicted,
                                                       const std::vector<FigureCurve>& curves,
                                                       const CurveOptions& options,
                                                       const std::function<void(int)>& progress) {
@@ -61,7 +60,7 @@ std::map<std::string, PaperCurve> EvaluatePaperCurves(const PaperPair& pair,
   for (const FigureCurve& curve : curves) {
     files[curve.variant][curve.metric] = curve.file;
   }
-  const Path path(SE3d(), pair.T_target_source, PathKind::kLerpSlerp);
+  const Path path(SE3d(), T_ground_truth, PathKind::kLerpSlerp);
   std::map<std::string, PaperCurve> result;
   int done_before = 0;
   for (const auto& [variant, file_of_metric] : files) {
@@ -69,8 +68,7 @@ std::map<std::string, PaperCurve> EvaluatePaperCurves(const PaperPair& pair,
     for (const auto& entry : file_of_metric) {
       metrics.push_back(entry.first);
     }
-    const PaperPair filtered = Filtered(pair, variant, pair.T_prior);
-    const ObjectiveSet set(filtered.source, filtered.target, filtered.features, metrics,
+    const ObjectiveSet set(Filtered(scans, variant, T_predicted, options.threads), metrics,
                            OptionsOf(variant));
     std::vector<Curve> drawn = EvaluateCurves(set.objectives(), path, options, [&](int done) {
       if (progress) {
