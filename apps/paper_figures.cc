@@ -7,12 +7,12 @@
 
 #include "apps/flags/lidar.h"
 #include "apps/flags/paper.h"
-#include "apps/flags/run.h"
 #include "apps/reports/paper_figures.h"
 #include "apps/reports/registration.h"
 #include "apps/run/app.h"
 #include "apps/run/progress.h"
 #include "apps/run/run.h"
+#include "apps/run/run_flags.h"
 #include "src/io/sequences.h"
 #include "src/simulation/simulated_sequence.h"
 

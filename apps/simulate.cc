@@ -4,11 +4,11 @@
 #include <memory>
 
 #include "apps/flags/lidar.h"
-#include "apps/flags/run.h"
 #include "apps/flags/simulation.h"
 #include "apps/run/app.h"
 #include "apps/run/progress.h"
 #include "apps/run/run.h"
+#include "apps/run/run_flags.h"
 #include "src/common/error.h"
 #include "src/io/kitti.h"
 #include "src/io/sequences.h"

@@ -3,7 +3,7 @@
 
 #include <gflags/gflags.h>
 
-#include "apps/flags/flag.h"
+#include "apps/run/flag.h"
 #include "src/common/text.h"
 
 static const icpscape::FlagGroup group(__FILE__, "Covariance estimators");

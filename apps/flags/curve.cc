@@ -5,8 +5,8 @@
 
 #include <cmath>
 
-#include "apps/flags/flag.h"
-#include "apps/flags/run.h"
+#include "apps/run/flag.h"
+#include "apps/run/run_flags.h"
 #include "src/common/text.h"
 
 static const icpscape::FlagGroup group(__FILE__, "Curve along the path");

@@ -5,7 +5,7 @@
 
 #include <cmath>
 
-#include "apps/flags/flag.h"
+#include "apps/run/flag.h"
 #include "src/common/text.h"
 
 static const icpscape::FlagGroup group(__FILE__, "Edge and planar points");

@@ -3,8 +3,8 @@
 
 #include <gflags/gflags.h>
 
-#include "apps/flags/flag.h"
 #include "apps/flags/octree_filter.h"
+#include "apps/run/flag.h"
 
 static const icpscape::FlagGroup group(__FILE__, "Filters", icpscape::kNotOfDraws);
 

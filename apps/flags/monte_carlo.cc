@@ -4,12 +4,12 @@
 #include <gflags/gflags.h>
 
 #include "apps/flags/covariance.h"
-#include "apps/flags/flag.h"
 #include "apps/flags/lidar.h"
 #include "apps/flags/objective.h"
 #include "apps/flags/preparation.h"
-#include "apps/flags/run.h"
 #include "apps/flags/starts.h"
+#include "apps/run/flag.h"
+#include "apps/run/run_flags.h"
 #include "src/common/text.h"
 
 DECLARE_string(scene);

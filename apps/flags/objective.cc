@@ -3,10 +3,10 @@
 
 #include <gflags/gflags.h>
 
-#include "apps/flags/flag.h"
 #include "apps/flags/local_fit.h"
 #include "apps/flags/matching.h"
-#include "apps/flags/run.h"
+#include "apps/run/flag.h"
+#include "apps/run/run_flags.h"
 #include "src/common/text.h"
 #include "src/objective/loss.h"
 

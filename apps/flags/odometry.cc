@@ -7,12 +7,12 @@
 #include <cmath>
 
 #include "apps/flags/filters.h"
-#include "apps/flags/flag.h"
 #include "apps/flags/joint.h"
 #include "apps/flags/minimizer.h"
 #include "apps/flags/objective.h"
 #include "apps/flags/preparation.h"
-#include "apps/flags/run.h"
+#include "apps/run/flag.h"
+#include "apps/run/run_flags.h"
 #include "src/common/text.h"
 
 static const icpscape::FlagGroup group(__FILE__, "Odometry");

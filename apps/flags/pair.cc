@@ -7,11 +7,11 @@
 #include <iostream>
 #include <utility>
 
-#include "apps/flags/flag.h"
 #include "apps/flags/lidar.h"
 #include "apps/flags/objective.h"
 #include "apps/flags/preparation.h"
 #include "apps/flags/sequence.h"
+#include "apps/run/flag.h"
 #include "src/common/error.h"
 #include "src/io/sequences.h"
 #include "src/io/transform.h"

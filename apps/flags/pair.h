@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "apps/flags/run.h"
+#include "apps/run/run_flags.h"
 #include "src/cloud/scan_pair.h"
 #include "src/io/manifest.h"
 #include "src/preparation/prepared_pair.h"

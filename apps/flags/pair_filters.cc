@@ -9,7 +9,7 @@
 #include <utility>
 
 #include "apps/flags/filters.h"
-#include "apps/flags/flag.h"
+#include "apps/run/flag.h"
 #include "src/common/error.h"
 #include "src/filtering/filter_statistics.h"
 #include "src/io/transform.h"

@@ -7,9 +7,9 @@
 #include <cstdio>
 #include <iostream>
 
-#include "apps/flags/flag.h"
 #include "apps/flags/lidar.h"
-#include "apps/flags/run.h"
+#include "apps/run/flag.h"
+#include "apps/run/run_flags.h"
 #include "src/common/error.h"
 #include "src/common/text.h"
 

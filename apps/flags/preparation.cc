@@ -6,8 +6,8 @@
 #include <algorithm>
 #include <cmath>
 
-#include "apps/flags/flag.h"
 #include "apps/flags/objective.h"
+#include "apps/run/flag.h"
 #include "src/common/text.h"
 
 static const icpscape::FlagGroup group(__FILE__, "Preparation of a scan");

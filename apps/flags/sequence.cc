@@ -3,9 +3,9 @@
 
 #include <gflags/gflags.h>
 
-#include "apps/flags/flag.h"
 #include "apps/flags/lidar.h"
-#include "apps/flags/run.h"
+#include "apps/run/flag.h"
+#include "apps/run/run_flags.h"
 #include "src/common/error.h"
 #include "src/io/sequences.h"
 #include "src/io/trajectory.h"

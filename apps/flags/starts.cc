@@ -5,8 +5,8 @@
 
 #include <cmath>
 
-#include "apps/flags/flag.h"
 #include "apps/flags/lidar.h"
+#include "apps/run/flag.h"
 #include "src/common/text.h"
 
 static const icpscape::FlagGroup group(__FILE__, "Random starts");

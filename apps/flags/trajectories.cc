@@ -7,7 +7,7 @@
 #include <cmath>
 #include <set>
 
-#include "apps/flags/flag.h"
+#include "apps/run/flag.h"
 #include "src/common/error.h"
 #include "src/common/text.h"
 

@@ -7,7 +7,7 @@
 #include <optional>
 #include <utility>
 
-#include "apps/flags/flag.h"
+#include "apps/run/flag.h"
 #include "src/common/text.h"
 #include "src/io/output.h"
 

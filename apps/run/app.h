@@ -5,7 +5,7 @@
 #include <functional>
 #include <string>
 
-#include "apps/flags/flag.h"
+#include "apps/run/flag.h"
 
 namespace icpscape {
 

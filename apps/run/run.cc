@@ -9,10 +9,10 @@
 #include <map>
 #include <utility>
 
-#include "apps/flags/run.h"
 #include "apps/run/app.h"
 #include "apps/run/figures.h"
 #include "apps/run/interrupt.h"
+#include "apps/run/run_flags.h"
 #include "src/common/text.h"
 #include "src/io/output.h"
 

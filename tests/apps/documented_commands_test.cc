@@ -30,13 +30,23 @@ std::set<std::string> Programs() {
   return programs;
 }
 
+const std::string kWithoutInput = "list_metrics";
+
 struct Command {
   std::string place;  // README.md:50
   std::string program;
   std::vector<std::string> arguments;
 };
 
-// The lines of a page's fenced code blocks that run a program, without their comments.
+// The command in a row of a table: | question | `icpscape-register --scene=...` |.
+std::string CommandInRow(const std::string& row) {
+  const std::size_t begin = row.find(std::string("`") + kPrefix);
+  return begin == std::string::npos ? ""
+                                    : row.substr(begin + 1, row.find('`', begin + 1) - begin - 1);
+}
+
+// The lines of a page's fenced code blocks that run a program, without their comments, and the
+// commands in rows of its tables.
 std::vector<Command> CommandsOf(const std::filesystem::path& page) {
   std::vector<Command> commands;
   std::istringstream in(ReadFile(page.string()));
@@ -47,10 +57,14 @@ std::vector<Command> CommandsOf(const std::filesystem::path& page) {
       in_block = !in_block;
       continue;
     }
-    std::vector<std::string> words = Split(line.substr(0, line.find(" #")), ' ');
+    const bool in_row = !in_block && line.rfind("|", 0) == 0;
+    const std::vector<std::string> words =
+        Split(in_row ? CommandInRow(line) : line.substr(0, line.find(" #")), ' ');
     const std::string name =
         words.empty() ? "" : std::filesystem::path(words[0]).filename().string();
-    if (in_block && name.rfind(kPrefix, 0) == 0) {
+    // A row may also mention a program by its name alone.
+    const bool is_mention = in_row && words.size() == 1 && name != kPrefix + kWithoutInput;
+    if ((in_block || in_row) && !is_mention && name.rfind(kPrefix, 0) == 0) {
       commands.push_back({page.filename().string() + ":" + std::to_string(number),
                           name.substr(sizeof(kPrefix) - 1),
                           {words.begin() + 1, words.end()}});
@@ -63,7 +77,7 @@ std::vector<Command> CommandsOf(const std::filesystem::path& page) {
 // cannot be, a command ends there, before any work, if its flags are accepted.
 void ExpectAccepted(Command command) {
   SCOPED_TRACE(command.place + ": " + command.program);
-  if (command.program == "list_metrics") {
+  if (command.program == kWithoutInput) {
     EXPECT_EQ(RunProgram(command.program, command.arguments).code, 0);
     return;
   }

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "apps/flags/flag.h"
+#include "apps/run/flag.h"
 
 #include <gflags/gflags.h>
 

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "apps/flags/run.h"
+#include "apps/run/run_flags.h"
 
 #include <gflags/gflags.h>
 
-#include "apps/flags/flag.h"
+#include "apps/run/flag.h"
 #include "src/common/parallel.h"
 
 static const icpscape::FlagGroup group(__FILE__, "Run", icpscape::kAside);

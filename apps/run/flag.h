@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#ifndef ICPSCAPE_APPS_FLAGS_FLAG_H_
-#define ICPSCAPE_APPS_FLAGS_FLAG_H_
+#ifndef ICPSCAPE_APPS_RUN_FLAG_H_
+#define ICPSCAPE_APPS_RUN_FLAG_H_
 
 #include <functional>
 #include <string>
@@ -73,4 +73,4 @@ void SetFlagDefault(const std::string& name, const std::string& value);
 
 }  // namespace icpscape
 
-#endif  // ICPSCAPE_APPS_FLAGS_FLAG_H_
+#endif  // ICPSCAPE_APPS_RUN_FLAG_H_

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#ifndef ICPSCAPE_APPS_FLAGS_RUN_H_
-#define ICPSCAPE_APPS_FLAGS_RUN_H_
+#ifndef ICPSCAPE_APPS_RUN_RUN_FLAGS_H_
+#define ICPSCAPE_APPS_RUN_RUN_FLAGS_H_
 
 #include <filesystem>
 
@@ -14,4 +14,4 @@ std::filesystem::path OutFromFlags();
 
 }  // namespace icpscape
 
-#endif  // ICPSCAPE_APPS_FLAGS_RUN_H_
+#endif  // ICPSCAPE_APPS_RUN_RUN_FLAGS_H_
