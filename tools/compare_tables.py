@@ -21,11 +21,11 @@ import sys
 WANTED = []
 
 # Files and columns with another name in an older version: name there, name now.
-RENAMED = {}
+RENAMED = {"iterations.csv": "iterates.csv"}
 
 # Columns that are not compared, by file. Times differ from run to run; titles and claims are text.
 LEFT_OUT = {
-    "iterations.csv": ["time_s"],
+    "iterates.csv": ["time_s"],
     "timings.csv": ["read_s", "odometry_s"],
     "journal.txt": ["10", "11", "36"],  # read_s, odometry_s, and the checksum over them.
     "manifest.json": ["mean_s_per_scan"],

@@ -53,7 +53,7 @@ class CompareTables(unittest.TestCase):
 
     def test_times_and_titles_are_left_out(self):
         self.assertEqual(self.differences({"iterations.csv": "cost,time_s\n1,0.1\n"},
-                                          {"iterations.csv": "cost,time_s\n1,0.2\n"}), [])
+                                          {"iterates.csv": "cost,time_s\n1,0.2\n"}), [])
         # Here it is the time of a scan.
         self.assertEqual(len(self.differences({"frames.csv": "cost,time_s\n1,0.1\n"},
                                               {"frames.csv": "cost,time_s\n1,0.2\n"})), 1)
