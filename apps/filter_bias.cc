@@ -1,127 +1,42 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "src/paper/filter_bias.h"
-
 #include <gflags/gflags.h>
 
-#include <cmath>
-#include <cstdio>
-#include <iostream>
+#include <string>
+#include <vector>
 
-#include "apps/app.h"
-#include "apps/objective_flags.h"
-#include "apps/pair_flags.h"
-#include "src/common/error.h"
+#include "apps/flags/objective.h"
+#include "apps/flags/octree_filter.h"
+#include "apps/flags/pair.h"
+#include "apps/reports/filter_bias.h"
+#include "apps/run/app.h"
+#include "apps/run/progress.h"
+#include "apps/run/run.h"
 #include "src/common/text.h"
 #include "src/filtering/filter_chain.h"
-#include "src/filtering/filter_statistics.h"
-#include "src/filtering/octree_correspondence_filter.h"
-#include "src/io/output.h"
-#include "src/simulation/surface.h"
 
 DECLARE_double(voxel_m);
-DEFINE_double(octree_voxel_m, 0.1, "Voxels of the Octree Correspondence Filter (m).");
+DECLARE_string(initial);
 DEFINE_double(translation_range_m, 0.3, "Errors of T_e along the path, to either side (m).");
 DEFINE_double(yaw_range_deg, 0.5, "Errors of T_e in yaw, to either side (degrees).");
 DEFINE_int32(steps, 7, "Errors tried per sweep, both ends included.");
+static const icpscape::FlagMark steps_mark(&FLAGS_steps, icpscape::kShown);
 DEFINE_int32(samples, 41, "Poses per search of a minimum, over twice the range of the errors.");
 
 namespace icpscape {
 namespace {
 
-ScanPair FilteredPairOf(const ScanPair& pair, const SE3d& T_estimate) {
-  FilterOptions octree;
-  octree.octree_voxel_m = FLAGS_octree_voxel_m;
-  FilteredPair filtered = ApplyFilters(pair.source, pair.target, T_estimate, octree);
-  ScanPair result = pair;
-  result.features = pair.features.Select(filtered.keep_source);
-  result.source = std::move(filtered.source);
-  result.target = std::move(filtered.target);
-  return result;
-}
-
-// The minima of all metrics under filters with every error of T_e, and (as "unfiltered") without.
-void Sweep(const ScanPair& pair, const std::vector<std::string>& metrics, const ErrorAxis& axis,
-           Table* table, Manifest* manifest) {
-  const int threads = ThreadsFromFlags();
-  std::vector<double> errors;
-  std::vector<std::vector<double>> minima(metrics.size());
-  const auto evaluate = [&](const ScanPair& scans, const std::string& error) {
-    const ObjectiveSet set(scans.source, scans.target, scans.features, metrics,
-                           ObjectiveSetFromFlags());
-    std::vector<double> found;
-    for (const Objective& objective : set.objectives()) {
-      found.push_back(ArgminError(objective, axis, FLAGS_samples, threads));
-      table->AddRow({axis.name, axis.unit, objective.metric().name, error, Number(found.back()),
-                     std::to_string(scans.source.size())});
-    }
-    return found;
-  };
-  const std::vector<double> unfiltered = evaluate(pair, "unfiltered");
-  Progress progress("filters, " + axis.name, FLAGS_steps);
-  for (int i = 0; i < FLAGS_steps; ++i) {
-    const double error = axis.range * (2.0 * i / (FLAGS_steps - 1) - 1);
-    const std::vector<double> found =
-        evaluate(FilteredPairOf(pair, axis.pose(error)), Number(error));
-    errors.push_back(error);
-    for (std::size_t m = 0; m < metrics.size(); ++m) {
-      minima[m].push_back(found[m]);
-    }
-    progress.Show(i + 1);
-  }
-  for (std::size_t m = 0; m < metrics.size(); ++m) {
-    const double slope = RegressionSlope(errors, minima[m]);
-    std::printf("%-10s %-16s slope %6.3f; unfiltered: %8.4f %s%s\n", axis.name.c_str(),
-                metrics[m].c_str(), slope, unfiltered[m], axis.unit.c_str(),
-                std::abs(unfiltered[m]) < 2 * axis.range ? "" : " or beyond");
-    manifest->SetResult("slope_" + axis.name + "_" + metrics[m], slope);
-    manifest->SetResult("unfiltered_" + axis.name + "_" + metrics[m], unfiltered[m]);
-  }
-  manifest->AddTiming(axis.name);
-}
-
-// What the filter with the motion of the frame before removes of the moving objects.
-void ReportRemoval(const ScanPair& pair, Manifest* manifest) {
-  if (!pair.T_prior || pair.source.label.empty()) {
-    return;
-  }
-  const auto is_moving = [](std::int32_t label) { return IsMoving(SemanticOf(label)); };
-  const FilteredPair filtered =
-      OctreeCorrespondenceFilter(pair.source, pair.target, *pair.T_prior, {FLAGS_octree_voxel_m});
-  const RemovalScore score = ScoreRemoval(pair.source, filtered.keep_source, is_moving);
-  // Two points in one voxel are at most its diagonal apart.
-  const DynamicRemains remains =
-      FindDynamicRemains(pair.source, pair.target, filtered.keep_source, *pair.T_prior,
-                         std::sqrt(3.0) * FLAGS_octree_voxel_m, is_moving);
-  std::printf("T_e = previous motion: keeps %.1f %% of the source\n",
-              100 * CountKept(filtered.keep_source).Fraction());
-  std::printf("moving points: %zu; removed: %zu; recall %.3f, precision %.3f\n", score.dynamic,
-              score.dynamic_removed, score.Recall(), score.Precision());
-  std::printf(
-      "moving points where their object's two poses overlap: %zu of all, %zu of the %zu "
-      "that remain\n",
-      remains.overlapping, remains.kept_overlapping, remains.kept);
-  manifest->SetResult("removal_recall", score.Recall());
-  manifest->SetResult("removal_precision", score.Precision());
-  manifest->SetResult("moving_points", static_cast<double>(remains.dynamic));
-  manifest->SetResult("moving_overlapping", static_cast<double>(remains.overlapping));
-  manifest->SetResult("moving_kept", static_cast<double>(remains.kept));
-  manifest->SetResult("moving_kept_overlapping", static_cast<double>(remains.kept_overlapping));
-}
-
-void FilterBias() {
-  const std::vector<std::string> metrics = MetricsFromFlags();
-  CheckPairFlags(metrics, true);
-  for (const char* flag : {"loss", "initial"}) {
-    const gflags::CommandLineFlagInfo info = gflags::GetCommandLineFlagInfoOrDie(flag);
-    RequireFlag(info.current_value == info.default_value, flag, info.current_value,
-                "its default, since the paper's RMSE along the path knows neither loss nor start");
-  }
+void CheckFlags() {
+  CheckPairFlags(MetricsFromFlags(), true);
+  FeaturesFromFlags();
+  ObjectiveSetFromFlags();
+  RequireUnchanged([](const Flag& flag) { return flag.Has(kCostOnly); },
+                   "its default, since the paper's RMSE knows no loss");
+  RequireFlag(FLAGS_initial == "identity", "initial", FLAGS_initial,
+              "identity, since the poses that are searched have no start");
   RequireFlag(FLAGS_voxel_m == 0, "voxel_m", Number(FLAGS_voxel_m),
               "0, since the filter's removal is counted on labelled points, and centroids have no "
               "labels");
-  FeaturesFromFlags();
-  ObjectiveSetFromFlags();
-  RequireFlag(FLAGS_octree_voxel_m > 0, "octree_voxel_m", Number(FLAGS_octree_voxel_m),
+  RequireFlag(OctreeVoxelFromFlags() > 0, "octree_voxel_m", Number(OctreeVoxelFromFlags()),
               "a positive length");
   RequireFlag(FLAGS_translation_range_m > 0, "translation_range_m",
               Number(FLAGS_translation_range_m), "a positive length");
@@ -129,32 +44,71 @@ void FilterBias() {
               "a positive angle");
   RequireFlag(FLAGS_steps >= 2, "steps", std::to_string(FLAGS_steps), "at least 2");
   RequireFlag(FLAGS_samples >= 3, "samples", std::to_string(FLAGS_samples), "at least 3");
-  const std::filesystem::path out = OutputFolder();
-  Manifest manifest(AppName());
-  RecordFlags(&manifest);
-  const ScanPair pair = LoadPair(metrics, &manifest);
-  if (!pair.T_ground_truth) {
-    throw UsageError(
-        "no ground truth: expected --ground_truth=FILE (T_target_source as 4x4 text).");
+}
+
+PreparedPair FilteredWith(const SE3d& T_estimate, const PreparedPair& scans) {
+  FilterOptions octree;
+  octree.octree_voxel_m = OctreeVoxelFromFlags();
+  return scans.Select(ApplyFilters(scans.source.cloud(), scans.target.cloud(), T_estimate, octree),
+                      ThreadsFromFlags());
+}
+
+// The minima of all metrics under filters with every error of T_e, and (as "unfiltered") without.
+FilterSweep SweepEstimate(const PreparedPair& scans, const ErrorAxis& axis, Table* table) {
+  FilterSweep sweep = {axis, MetricsFromFlags(), {}, {}, {}};
+  const auto minima_of = [&](const PreparedPair& pair, const std::string& error) {
+    const ObjectiveSet set(pair, sweep.metrics, ObjectiveSetFromFlags());
+    std::vector<double> found;
+    for (const Objective& objective : set.objectives()) {
+      found.push_back(ArgminError(objective, axis, FLAGS_samples, ThreadsFromFlags()));
+      table->AddRow({axis.name, axis.unit, objective.metric().name, error, Number(found.back()),
+                     std::to_string(pair.source.cloud().size())});
+    }
+    return found;
+  };
+  sweep.unfiltered = minima_of(scans, "unfiltered");
+  sweep.minima.resize(sweep.metrics.size());
+  Progress progress("filters, " + axis.name, FLAGS_steps);
+  for (int i = 0; i < FLAGS_steps; ++i) {
+    const double error = axis.range * (2.0 * i / (FLAGS_steps - 1) - 1);
+    const auto found = minima_of(FilteredWith(axis.pose(error), scans), Number(error));
+    sweep.errors.push_back(error);
+    for (std::size_t m = 0; m < found.size(); ++m) {
+      sweep.minima[m].push_back(found[m]);
+    }
+    progress.Show(i + 1);
   }
+  return sweep;
+}
+
+void FilterBias() {
+  CheckFlags();
+  Run run;
+  ScanPair pair = ReadPair(run.manifest());
+  const PreparedPair scans = PrepareFromFlags(MetricsFromFlags(), &pair, run.manifest());
   Table table({"sweep", "unit", "metric", "error_of_estimate", "argmin_error", "source_points"});
-  Sweep(pair, metrics, AlongPath(*pair.T_ground_truth, FLAGS_translation_range_m), &table,
-        &manifest);
-  Sweep(pair, metrics, Yaw(*pair.T_ground_truth, FLAGS_yaw_range_deg), &table, &manifest);
-  ReportRemoval(pair, &manifest);
-  table.WriteCsv(out / "filter_bias.csv");
-  RunPlotScript("plot_filter_bias.py", {(out / "filter_bias.csv").string(), "--out",
-                                        (out / "filter_bias").string(), "--title", pair.title});
-  manifest.AddTiming("figures");
-  manifest.Write(out / "manifest.json");
-  std::cout << "written: " << (out / "filter_bias.csv").string()
-            << ", filter_bias.svg, filter_bias.png, manifest.json\n";
+  for (const ErrorAxis& axis : {AlongPath(*pair.T_ground_truth, FLAGS_translation_range_m),
+                                Yaw(*pair.T_ground_truth, FLAGS_yaw_range_deg)}) {
+    ReportSweep(SweepEstimate(scans, axis, &table), run.manifest());
+  }
+  if (pair.T_predicted && !scans.source.cloud().label.empty()) {
+    ReportRemoval(scans.source.cloud(), scans.target.cloud(), *pair.T_predicted,
+                  OctreeVoxelFromFlags(), run.manifest());
+  }
+  const std::filesystem::path path = run.File("filter_bias.csv");
+  table.WriteCsv(path);
+  run.Draw("plot_filter_bias.py", {path.string(), "--title", TitleWithFlags(pair.title)},
+           "filter_bias");
+  run.manifest()->AddTiming("figures");
+  run.Finish();
 }
 
 }  // namespace
 }  // namespace icpscape
 
 int main(int argc, char** argv) {
+  icpscape::SetFlagDefault("octree_voxel_m",
+                           "0.1");  // The paper's: here the filter is the subject.
   return icpscape::RunApp(
       argc, argv,
       "asks whether the Octree Correspondence Filter finds the motion or returns its prior T_e: "

@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-#include "apps/app.h"
+#include "apps/run/app.h"
 #include "residuals/registry.h"
 
 DEFINE_bool(markdown, false, "Print the tables as Markdown, as in docs/metrics.md.");

@@ -51,7 +51,10 @@ def draw(folder, curves):
 def main():
     parser = argparse.ArgumentParser(description=__doc__)
     parser.add_argument("folder", help="the --out of icpscape-paper_figures")
-    folder = parser.parse_args().folder
+    parser.add_argument("--out", help="folder for the figures; that of the tables by default")
+    arguments = parser.parse_args()
+    folder = arguments.folder
+    out = arguments.out or folder
     figures = defaultdict(list)
     with open(os.path.join(folder, "figures.csv"), newline="") as file:
         for row in csv.DictReader(file):
@@ -59,8 +62,8 @@ def main():
     plt.rcParams["svg.hashsalt"] = "icpscape"  # The same picture is the same file.
     for name, curves in figures.items():
         figure = draw(folder, curves)
-        figure.savefig(os.path.join(folder, name + ".svg"), metadata={"Date": None})
-        figure.savefig(os.path.join(folder, name + ".png"), dpi=150)
+        figure.savefig(os.path.join(out, name + ".svg"), metadata={"Date": None})
+        figure.savefig(os.path.join(out, name + ".png"), dpi=150)
         plt.close(figure)
 
 

@@ -85,7 +85,7 @@ def draw(sequences, title):
     legend = figure.legend(handles, labels, title=title or None, loc="upper center", ncol=4,
                            frameon=False, fontsize=9, title_fontsize=11)
     legend.get_title().set_parse_math(False)
-    figure.get_layout_engine().set(rect=(0, 0, 1, 1 - (0.55 if title else 0.3) / height))
+    figure.get_layout_engine().set(rect=(0, 0, 1, 1 - (0.3 + (0.25 + 0.15 * title.count("\n") if title else 0)) / height))
     return figure
 
 

@@ -15,7 +15,6 @@ import csv
 import json
 import math
 import pathlib
-import re
 import statistics
 import subprocess
 import sys
@@ -51,7 +50,6 @@ def run(command):
     done = subprocess.run([str(word) for word in command], capture_output=True, text=True)
     if done.returncode != 0:
         sys.exit(f"rank_odometry.py: {' '.join(map(str, command))}: {done.stderr.strip()}")
-    return done.stdout
 
 
 def read_results(folder):
@@ -66,11 +64,11 @@ def predicted_drift(program, drive, flags, frames, out):
         return None
     off_m = way_m = 0
     for frame in frames:
-        printed = run([program, *drive, f"--frame={frame}", *flags, "--u_min=0.5", "--u_max=1.5",
-                       "--samples=101", "--threads=1", f"--out={out}"])
-        motion_m = float(re.search(r"motion: ([0-9.]+) m", printed)[1])
-        off_m += (read_results(out)["argmin_u_" + metrics] - 1) * motion_m
-        way_m += motion_m
+        run([program, *drive, f"--frame={frame}", *flags, "--u_min=0.5", "--u_max=1.5",
+             "--samples=101", "--threads=1", f"--out={out}"])
+        results = read_results(out)
+        off_m += (results["argmin_u_" + metrics] - 1) * results["motion_m"]
+        way_m += results["motion_m"]
     return off_m / way_m
 
 

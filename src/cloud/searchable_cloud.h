@@ -3,7 +3,11 @@
 #define ICPSCAPE_SRC_CLOUD_SEARCHABLE_CLOUD_H_
 
 #include <array>
+#include <atomic>
+#include <cstdint>
 #include <memory>
+#include <mutex>
+#include <utility>
 #include <vector>
 
 #include "src/cloud/point_cloud.h"
@@ -11,31 +15,34 @@
 
 namespace icpscape {
 
-/// A cloud as matching needs it: with the search over its points. Building one costs about as much
-/// as matching a scan twice, so whoever needs it in several places makes one and hands out copies,
-/// which share it.
+/// A cloud with the search over its points, as matching needs it. Copies share both, so that a
+/// search is built once however many matchers use it. It is built at its first use: whoever only
+/// reads the points does not pay for it.
 class SearchableCloud {
  public:
-  /// Not explicit: a cloud is searchable; more threads only shorten the building. It must outlive
-  /// this object and its copies, unchanged.
-  SearchableCloud(const PointCloud& cloud, int threads = 1);  // NOLINT(google-explicit-constructor)
+  /// Not explicit: a cloud is searchable. Takes the cloud; more threads only shorten the building.
+  SearchableCloud(PointCloud cloud, int threads = 1);  // NOLINT(google-explicit-constructor)
 
-  /// With a search over the cloud's points that is there already.
-  SearchableCloud(const PointCloud& cloud, NeighborSearch search);
+  /// With a search over the cloud's points that was built before.
+  SearchableCloud(PointCloud cloud, NeighborSearch search);
 
-  const PointCloud& cloud() const { return *cloud_; }
-  const NeighborSearch& search() const { return search_; }
-  PointsView points() const { return search_.OrderedPoints(); }
+  const PointCloud& cloud() const { return shared_->cloud; }
+  /// With which the search is built.
+  int threads() const { return shared_->threads; }
+  const NeighborSearch& search() const { return index().search; }
+  PointsView points() const { return search().OrderedPoints(); }
   /// The numbers of what the points carry of a kind, in the order of search().Order(), padded: what
   /// is near in space is near in the memory. They are 0 for a point that has none.
   std::array<const float*, 3> Numbers(kind::Point) const {
-    return {points().x, points().y, points().z};
+    const PointsView view = points();
+    return {view.x, view.y, view.z};
   }
   template <class Kind>
   std::array<const float*, Kind::kSize> Numbers(Kind kind) const {
+    const PointCloud& ordered = index().ordered;
     std::array<const float*, Kind::kSize> numbers;
     for (std::size_t k = 0; k < Kind::kSize; ++k) {
-      numbers[k] = (shared_->ordered.*PointCloud::ArraysOf(kind)[k]).data();
+      numbers[k] = (ordered.*PointCloud::ArraysOf(kind)[k]).data();
     }
     return numbers;
   }
@@ -43,16 +50,36 @@ class SearchableCloud {
     const auto numbers = Numbers(kind::Direction());
     return {numbers[0], numbers[1], numbers[2], points().size};
   }
-  /// Where in that order the point of an index is; -1 for one that is not finite.
-  std::int32_t Place(std::size_t index) const { return shared_->place[index]; }
+  /// The place of a point in that order; -1 for a point that is not finite.
+  std::int32_t Place(std::size_t point) const { return index().place[point]; }
 
  private:
-  const PointCloud* cloud_;
-  NeighborSearch search_;
-  struct Shared {
-    PointCloud ordered;  // Without the points, which the search has.
-    std::vector<std::int32_t> place;
+  // What the search adds to the cloud.
+  struct Index {
+    Index(const PointCloud& cloud, NeighborSearch built);
+
+    NeighborSearch search;
+    PointCloud ordered;  // In the order of the search; without the points, which it has.
+    std::vector<std::int32_t> place;  // Of each point in that order.
   };
+  struct Shared {
+    Shared(PointCloud c, int t) : cloud(std::move(c)), threads(t) {}
+
+    const PointCloud cloud;
+    const int threads;
+    mutable std::once_flag once;
+    mutable std::unique_ptr<const Index> index;
+    mutable std::atomic<const Index*> built = nullptr;
+  };
+
+  // Inline and without a lock once it is built: asked for every pair.
+  const Index& index() const {
+    const Index* built = shared_->built.load(std::memory_order_acquire);
+    return built != nullptr ? *built : Build();
+  }
+  const Index& Build() const;
+  void Build(NeighborSearch search) const;
+
   std::shared_ptr<const Shared> shared_;
 };
 

@@ -82,13 +82,11 @@ std::optional<Mat6> Sandwich(const Mat6& bread, const Mat6& middle) {
 void CovarianceOptions::Check() const {
   const auto require = [](bool good, const char* name, double value, const char* expected) {
     if (!good) {
-      throw UsageError("--" + std::string(name) + "=" + Number(value) + ": expected " + expected +
-                       ".");
+      throw UsageError(std::string(name) + "=" + Number(value) + ": expected " + expected + ".");
     }
   };
-  require(range_noise_m >= 0 && range_noise_m <= 10, "assumed_range_noise_m", range_noise_m,
-          "0 to 10 m");
-  require(ring_bias_m >= 0 && ring_bias_m <= 10, "assumed_ring_bias_m", ring_bias_m, "0 to 10 m");
+  require(range_noise_m >= 0 && range_noise_m <= 10, "range_noise_m", range_noise_m, "0 to 10 m");
+  require(ring_bias_m >= 0 && ring_bias_m <= 10, "ring_bias_m", ring_bias_m, "0 to 10 m");
   require(cluster_m >= 0.01 && cluster_m <= 1000, "cluster_m", cluster_m, "0.01 to 1000 m");
   require(rematching_step_m >= 1e-4 && rematching_step_m <= 1, "rematching_step_m",
           rematching_step_m, "0.0001 to 1 m");

@@ -43,8 +43,7 @@ Mat3 PseudoInverse(const Mat3& symmetric) {
 
 EigenDirections EigenDirectionsOf(const Mat6& hessian, double length_scale_m) {
   if (!(length_scale_m > 0) || !std::isfinite(length_scale_m)) {
-    throw UsageError("--length_scale_m=" + Number(length_scale_m) +
-                     ": expected a positive length.");
+    throw UsageError("length_scale_m=" + Number(length_scale_m) + ": expected a positive length.");
   }
   Vec6 scale = Vec6::Ones();
   scale.head<3>() /= length_scale_m;

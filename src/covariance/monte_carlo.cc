@@ -20,17 +20,10 @@ class Experiment {
 
   // By metric.
   std::vector<DrawResult> Draw(int draw) const {
-    PointCloud target = Scan(1, draw);
-    PointCloud source = Scan(2, draw);
-    EstimateNormals(options_.normals, 1, &target);
-    EstimateNormals(options_.normals, 1, &source);
-    Features features;
-    if (std::any_of(options_.metrics.begin(), options_.metrics.end(), NeedsFeatures)) {
-      features = ExtractFeatures(source, options_.features, 1);
-    }
-    ObjectiveSetOptions set_options = options_.objective;
-    set_options.threads = 1;
-    const ObjectiveSet set(source, target, features, options_.metrics, set_options);
+    const PreparedPair scans = PreparePair(Scan(2, draw), Scan(1, draw),
+                                           NeedsOf(options_.metrics, options_.objective.matching),
+                                           options_.preparation, 1);
+    const ObjectiveSet set(scans, options_.metrics, options_.objective);
     std::vector<DrawResult> results;
     for (const Objective& objective : set.objectives()) {
       results.push_back(Register(objective, starts_[static_cast<std::size_t>(draw)]));
@@ -88,18 +81,10 @@ class Experiment {
 
 }  // namespace
 
-MinimizerOptions PreciseMinimizer() {
-  MinimizerOptions options;
-  options.max_iterations = 100;
-  options.min_step_m = 1e-5;
-  options.min_step_rad = 1e-6;
-  return options;
-}
-
 std::vector<std::vector<DrawResult>> RunMonteCarlo(const MonteCarloOptions& options,
                                                    const std::function<void(int)>& progress) {
   if (options.draws < 2) {
-    throw UsageError("--draws=" + std::to_string(options.draws) + ": expected at least 2.");
+    throw UsageError("draws=" + std::to_string(options.draws) + ": expected at least 2.");
   }
   options.covariance.Check();
   const Experiment experiment(options);

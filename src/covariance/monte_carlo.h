@@ -9,10 +9,8 @@
 #include <string>
 #include <vector>
 
-#include "src/cloud/features.h"
-#include "src/cloud/normals.h"
 #include "src/covariance/consistency.h"
-#include "src/covariance/covariance.h"
+#include "src/covariance/registration_uncertainty.h"
 #include "src/minimizer/random_starts.h"
 #include "src/objective/objective_set.h"
 #include "src/simulation/lidar.h"
@@ -31,9 +29,8 @@ struct MonteCarloOptions {
   LidarOptions lidar;
   Sensor sensor = Sensor::kFixed;
   std::vector<std::string> metrics = {"point_to_plane"};
-  NeighborhoodOptions normals;
-  FeatureOptions features;        ///< Where a metric needs them.
-  ObjectiveSetOptions objective;  ///< Its threads are not used.
+  PreparationOptions preparation;
+  ObjectiveSetOptions objective;
   /// One start per draw; count, seed and the minimizer's threads are not used. Converged is where
   /// the stop rule leaves less than the errors that are measured: see PreciseMinimizer.
   RandomStartOptions start;
@@ -41,10 +38,6 @@ struct MonteCarloOptions {
   int draws = 100;
   int threads = 1;
 };
-
-/// A stop rule of 10 micrometres and 0.06 millidegrees: standard deviations are tenths of
-/// millimetres.
-MinimizerOptions PreciseMinimizer();
 
 /// One registration of one draw.
 struct DrawResult {

@@ -26,17 +26,15 @@ std::vector<char> KeepOutside(const PointCloud& cloud, const Vec3& center, doubl
 
 }  // namespace
 
-FilteredPair ArtificialBlindSpots(const PointCloud& source, const PointCloud& target,
-                                  double radius_m) {
-  return SelectPair(source, target, KeepOutside(source, Vec3::Zero(), radius_m),
-                    KeepOutside(target, Vec3::Zero(), radius_m));
+KeptPoints ArtificialBlindSpots(const PointCloud& source, const PointCloud& target,
+                                double radius_m) {
+  return {KeepOutside(source, Vec3::Zero(), radius_m), KeepOutside(target, Vec3::Zero(), radius_m)};
 }
 
-FilteredPair EgoBlindSpotFilter(const PointCloud& source, const PointCloud& target,
-                                const SE3d& T_target_source_estimate, double radius_m) {
-  return SelectPair(source, target,
-                    KeepOutside(source, T_target_source_estimate.Inverse().t(), radius_m),
-                    KeepOutside(target, T_target_source_estimate.t(), radius_m));
+KeptPoints EgoBlindSpotFilter(const PointCloud& source, const PointCloud& target,
+                              const SE3d& T_target_source_estimate, double radius_m) {
+  return {KeepOutside(source, T_target_source_estimate.Inverse().t(), radius_m),
+          KeepOutside(target, T_target_source_estimate.t(), radius_m)};
 }
 
 }  // namespace icpscape

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "src/filtering/filter_chain.h"
 
-#include <utility>
+#include <algorithm>
 
 #include "src/common/error.h"
 #include "src/filtering/ego_blind_spot.h"
@@ -20,34 +20,37 @@ void Compose(const std::vector<char>& keep, std::vector<char>* all) {
 
 }  // namespace
 
-FilteredPair ApplyFilters(
-    const PointCloud& source, const PointCloud& target, const SE3d& T_e,
-    const FilterOptions& options,
-    const std::function<void(const std::string&, const FilteredPair&)>& report) {
-  FilteredPair all = {source, target, std::vector<char>(source.size(), 1),
-                      std::vector<char>(target.size(), 1)};
-  const auto apply = [&](const std::string& name, FilteredPair filtered) {
+KeptPoints ApplyFilters(const PointCloud& source, const PointCloud& target, const SE3d& T_e,
+                        const FilterOptions& options,
+                        const std::function<void(const std::string&, const KeptPoints&)>& report) {
+  KeptPoints all = {std::vector<char>(source.size(), 1), std::vector<char>(target.size(), 1)};
+  const auto apply = [&](const std::string& name, const auto& filter) {
+    const KeptPoints kept = filter(source.Select(all.source), target.Select(all.target));
     if (report) {
-      report(name, filtered);
+      report(name, kept);
     }
-    if (filtered.source.empty() || filtered.target.empty()) {
-      throw ComputationError(name + ": no point is left; expected some to agree.");
+    for (const std::vector<char>* keep : {&kept.source, &kept.target}) {
+      if (std::find(keep->begin(), keep->end(), 1) == keep->end()) {
+        throw ComputationError(name + ": no point is left; expected some to agree.");
+      }
     }
-    Compose(filtered.keep_source, &all.keep_source);
-    Compose(filtered.keep_target, &all.keep_target);
-    all.source = std::move(filtered.source);
-    all.target = std::move(filtered.target);
+    Compose(kept.source, &all.source);
+    Compose(kept.target, &all.target);
   };
   if (options.artificial_blind_spot_m > 0) {
-    apply("artificial_blind_spot",
-          ArtificialBlindSpots(all.source, all.target, options.artificial_blind_spot_m));
+    apply("artificial_blind_spot", [&](const PointCloud& s, const PointCloud& t) {
+      return ArtificialBlindSpots(s, t, options.artificial_blind_spot_m);
+    });
   }
   if (options.ego_blind_spot_m > 0) {
-    apply("ego_filter", EgoBlindSpotFilter(all.source, all.target, T_e, options.ego_blind_spot_m));
+    apply("ego_filter", [&](const PointCloud& s, const PointCloud& t) {
+      return EgoBlindSpotFilter(s, t, T_e, options.ego_blind_spot_m);
+    });
   }
   if (options.octree_voxel_m > 0) {
-    apply("octree_filter",
-          OctreeCorrespondenceFilter(all.source, all.target, T_e, {options.octree_voxel_m}));
+    apply("octree_filter", [&](const PointCloud& s, const PointCloud& t) {
+      return OctreeCorrespondenceFilter(s, t, T_e, {options.octree_voxel_m});
+    });
   }
   return all;
 }

@@ -5,7 +5,8 @@
 #include <functional>
 #include <string>
 
-#include "src/filtering/filtered_pair.h"
+#include "src/cloud/point_cloud.h"
+#include "src/filtering/kept_points.h"
 
 namespace icpscape {
 
@@ -23,10 +24,10 @@ struct FilterOptions {
 /// Applies the filters, those that need an estimate of the motion with T_e. `report` (if any) is
 /// called after each with its name (artificial_blind_spot, ego_filter, octree_filter) and what it
 /// kept of what came to it. Throws ComputationError where one of them leaves no point.
-FilteredPair ApplyFilters(
+KeptPoints ApplyFilters(
     const PointCloud& source, const PointCloud& target, const SE3d& T_target_source_estimate,
     const FilterOptions& options,
-    const std::function<void(const std::string&, const FilteredPair&)>& report = nullptr);
+    const std::function<void(const std::string&, const KeptPoints&)>& report = nullptr);
 
 }  // namespace icpscape
 

@@ -26,7 +26,7 @@ struct RangeBin {
   KeptCount count;
 };
 
-/// Over all points. `keep` has one entry per point, as in FilteredPair.
+/// Over all points. `keep` has one entry per point, as in KeptPoints.
 KeptCount CountKept(const std::vector<char>& keep);
 
 /// By the distance from the sensor, in bins of bin_m from 0 to beyond the furthest point: scans are

@@ -8,9 +8,9 @@
 
 namespace icpscape {
 
-FilteredPair OctreeCorrespondenceFilter(const PointCloud& source, const PointCloud& target,
-                                        const SE3d& T_target_source_estimate,
-                                        const OctreeFilterOptions& options) {
+KeptPoints OctreeCorrespondenceFilter(const PointCloud& source, const PointCloud& target,
+                                      const SE3d& T_target_source_estimate,
+                                      const OctreeFilterOptions& options) {
   CheckVoxelSize(options.voxel_size_m);
   const auto key_of = [&](const Vec3& point) {
     return VoxelKey(point.cast<float>(), options.voxel_size_m, "the target frame");
@@ -33,7 +33,7 @@ FilteredPair OctreeCorrespondenceFilter(const PointCloud& source, const PointClo
   for (std::size_t j = 0; j < target.size(); ++j) {
     keep_target[j] = in_both[target_voxel[j]];
   }
-  return SelectPair(source, target, std::move(keep_source), std::move(keep_target));
+  return {std::move(keep_source), std::move(keep_target)};
 }
 
 }  // namespace icpscape

@@ -3,7 +3,7 @@
 #define ICPSCAPE_SRC_FILTERING_OCTREE_CORRESPONDENCE_FILTER_H_
 
 #include "src/cloud/point_cloud.h"
-#include "src/filtering/filtered_pair.h"
+#include "src/filtering/kept_points.h"
 
 namespace icpscape {
 
@@ -15,8 +15,7 @@ struct OctreeFilterOptions {
 
 /// The Octree Correspondence Filter [paper sec. 2.7, Alg. 1]: both scans are brought into the
 /// target frame, the source by the estimate T_e, and the points of every voxel that only one of
-/// them occupies are dropped: dynamic objects and what one scan alone sees. What is left of the
-/// source is returned in its own frame, by selection, not moved there and back.
+/// them occupies are dropped: dynamic objects and what one scan alone sees.
 ///
 /// The algorithm's leaves are all it needs of its octrees, so the voxels are kept in a flat hash:
 /// linear in the number of points, whatever the number of dynamic objects. The lattice is fixed,
@@ -28,9 +27,9 @@ struct OctreeFilterOptions {
 ///
 /// The filter keeps what agrees under T_e, so it favours T_e itself. Throws UsageError unless
 /// voxel_size_m is a length above 0, InputError for a point beyond 2^20 voxels from the origin.
-FilteredPair OctreeCorrespondenceFilter(const PointCloud& source, const PointCloud& target,
-                                        const SE3d& T_target_source_estimate,
-                                        const OctreeFilterOptions& options);
+KeptPoints OctreeCorrespondenceFilter(const PointCloud& source, const PointCloud& target,
+                                      const SE3d& T_target_source_estimate,
+                                      const OctreeFilterOptions& options);
 
 }  // namespace icpscape
 

@@ -89,9 +89,9 @@ void Journal::Load(const std::string& header) {
     }
     checksum_ = line.substr(blank + 1);
     if (number == 1 && line.substr(0, blank) != header) {
-      throw InputError(
-          path_.string() + ": was written with " + Difference(line.substr(0, blank), header) +
-          "; expected the same, another folder (--out), or to begin anew (--restart).");
+      throw InputError(path_.string() + ": was written with " +
+                       Difference(line.substr(0, blank), header) +
+                       "; expected the same, another folder, or a restart.");
     }
     if (number > 1) {
       records_.push_back(line.substr(0, blank));

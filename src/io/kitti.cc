@@ -2,7 +2,6 @@
 #include "src/io/kitti.h"
 
 #include <array>
-#include <cmath>
 #include <cstdint>
 #include <cstdio>
 #include <cstring>
@@ -59,26 +58,7 @@ PointCloud ReadVelodyne(const std::filesystem::path& path, DroppedPoints* droppe
   return cloud;
 }
 
-void CorrectElevation(double angle_deg, PointCloud* cloud) {
-  if (angle_deg == 0) {
-    return;
-  }
-  const double angle = angle_deg * M_PI / 180;
-  for (std::size_t i = 0; i < cloud->size(); ++i) {
-    const Vec3 p = cloud->Point(i);
-    const double horizontal = std::hypot(p.x(), p.y());
-    if (horizontal == 0) {
-      continue;
-    }
-    const double elevation = std::atan2(p.z(), horizontal) + angle;
-    const double scale = p.norm() * std::cos(elevation) / horizontal;
-    cloud->x[i] = static_cast<float>(p.x() * scale);
-    cloud->y[i] = static_cast<float>(p.y() * scale);
-    cloud->z[i] = static_cast<float>(p.norm() * std::sin(elevation));
-  }
-}
-
-KittiSequence::KittiSequence(std::filesystem::path root, std::string sequence)
+KittiFiles::KittiFiles(std::filesystem::path root, std::string sequence)
     : root_(std::move(root)), sequence_(std::move(sequence)) {
   const std::filesystem::path folder = root_ / "sequences" / sequence_;
   if (!std::filesystem::is_directory(folder)) {
@@ -86,44 +66,29 @@ KittiSequence::KittiSequence(std::filesystem::path root, std::string sequence)
   }
 }
 
-std::filesystem::path KittiSequence::ScanPath(int frame) const {
+std::filesystem::path KittiFiles::Scan(int frame) const {
   std::array<char, 16> name;
   std::snprintf(name.data(), name.size(), "%06d.bin", frame);
   return root_ / "sequences" / sequence_ / "velodyne" / name.data();
 }
 
-std::filesystem::path KittiSequence::PosesPath() const {
-  return root_ / "poses" / (sequence_ + ".txt");
-}
+std::filesystem::path KittiFiles::Poses() const { return root_ / "poses" / (sequence_ + ".txt"); }
 
-std::filesystem::path KittiSequence::CalibrationPath() const {
+std::filesystem::path KittiFiles::Calibration() const {
   return root_ / "sequences" / sequence_ / "calib.txt";
 }
 
-SE3d KittiSequence::RelativeMotion(int to, int from) const {
-  const SE3d Tr = ReadKittiCalibration(CalibrationPath());
-  const std::vector<SE3d> poses = ReadKittiPoses(PosesPath());
-  for (const int frame : {to, from}) {
-    if (frame < 0 || static_cast<std::size_t>(frame) >= poses.size()) {
-      throw InputError(PosesPath().string() + ": " + std::to_string(poses.size()) +
-                       " rows; expected a row for frame " + std::to_string(frame) + ".");
-    }
-  }
-  return Tr.Inverse() * poses[static_cast<std::size_t>(to)].Inverse() *
-         poses[static_cast<std::size_t>(from)] * Tr;
+std::filesystem::path KittiFiles::Times() const {
+  return root_ / "sequences" / sequence_ / "times.txt";
 }
 
-std::vector<SE3d> KittiSequence::LidarPoses() const {
-  const SE3d Tr = ReadKittiCalibration(CalibrationPath());
-  std::vector<SE3d> poses = ReadKittiPoses(PosesPath());
-  if (poses.empty()) {
-    throw InputError(PosesPath().string() + ": no rows; expected one pose per frame.");
+std::vector<SE3d> KittiPosesOf(const std::vector<SE3d>& T_world_lidar, const SE3d& Tr) {
+  const SE3d T_first_world = T_world_lidar.front().Inverse();
+  std::vector<SE3d> T_first_camera;
+  for (const SE3d& T : T_world_lidar) {
+    T_first_camera.push_back(Tr * T_first_world * T * Tr.Inverse());
   }
-  const SE3d T_first_camera = Tr.Inverse() * poses[0].Inverse();
-  for (SE3d& pose : poses) {
-    pose = T_first_camera * pose * Tr;
-  }
-  return poses;
+  return T_first_camera;
 }
 
 SE3d ReadKittiCalibration(const std::filesystem::path& path) {

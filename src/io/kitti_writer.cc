@@ -6,6 +6,7 @@
 #include <cstdint>
 #include <fstream>
 
+#include "src/io/kitti.h"
 #include "src/io/output.h"
 #include "src/io/trajectory.h"
 #include "src/io/transform.h"
@@ -48,11 +49,7 @@ void WriteRings(const std::filesystem::path& path, const PointCloud& cloud) {
 
 void WriteKittiPoses(const std::filesystem::path& path, const std::vector<SE3d>& T_world_lidar,
                      const SE3d& Tr) {
-  std::vector<SE3d> T_first_camera;
-  for (const SE3d& T : T_world_lidar) {
-    T_first_camera.push_back(Tr * T_world_lidar[0].Inverse() * T * Tr.Inverse());
-  }
-  WriteKittiTrajectory(path, T_first_camera);
+  WriteKittiTrajectory(path, KittiPosesOf(T_world_lidar, Tr));
 }
 
 void WriteKittiCalibration(const std::filesystem::path& path, const SE3d& Tr) {

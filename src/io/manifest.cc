@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "src/io/manifest.h"
 
+#include <fstream>
 #include <nlohmann/json.hpp>
-#include <vector>
 
 #include "icpscape_version.h"
 #include "src/common/text.h"
@@ -24,15 +24,18 @@ struct Manifest::Impl {
 Manifest::Manifest(const std::string& program) : impl_(std::make_unique<Impl>()) {
   impl_->json["program"] = program;
   impl_->json["version"] = Version();
-  for (const char* section : {"flags", "inputs", "results", "timings_s"}) {
+  for (const char* section : {"flags", "changed_flags", "inputs", "results", "timings_s"}) {
     impl_->json[section] = nlohmann::ordered_json::object();
   }
 }
 
 Manifest::~Manifest() = default;
 
-void Manifest::SetFlag(const std::string& name, const std::string& value) {
+void Manifest::SetFlag(const std::string& name, const std::string& value, bool is_changed) {
   impl_->json["flags"][name] = value;
+  if (is_changed) {
+    impl_->json["changed_flags"][name] = value;
+  }
 }
 
 void Manifest::AddInput(const std::filesystem::path& path) {
@@ -62,9 +65,29 @@ std::string Manifest::TimingsText() const {
   return Join(parts);
 }
 
+void Manifest::SetFiles(const std::vector<std::string>& names) { impl_->json["files"] = names; }
+
 void Manifest::Write(const std::filesystem::path& path) const {
   WriteTextFile(path,
                 impl_->json.dump(2, ' ', false, nlohmann::json::error_handler_t::replace) + "\n");
+}
+
+std::optional<std::vector<std::string>> FilesOfManifest(const std::filesystem::path& path,
+                                                        const std::string& program) {
+  std::ifstream in(path);
+  const auto json = nlohmann::json::parse(in, nullptr, false);
+  if (!json.is_object() || !json.contains("program") || json["program"] != program) {
+    return std::nullopt;
+  }
+  std::vector<std::string> names;
+  if (json.contains("files") && json["files"].is_array()) {
+    for (const auto& name : json["files"]) {
+      if (name.is_string()) {
+        names.push_back(name.get<std::string>());
+      }
+    }
+  }
+  return names;
 }
 
 std::string Version() {

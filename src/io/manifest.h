@@ -5,12 +5,14 @@
 #include <chrono>
 #include <filesystem>
 #include <memory>
+#include <optional>
 #include <string>
+#include <vector>
 
 namespace icpscape {
 
-/// What a run was: program, version, effective flags, hashes of its inputs, timings and headline
-/// results; written as manifest.json beside the tables.
+/// What a run was: program, version, effective flags, hashes of its inputs, timings, headline
+/// results and the files that it wrote; written as manifest.json beside the tables.
 class Manifest {
  public:
   explicit Manifest(const std::string& program);
@@ -18,7 +20,9 @@ class Manifest {
   Manifest(const Manifest&) = delete;
   Manifest& operator=(const Manifest&) = delete;
 
-  void SetFlag(const std::string& name, const std::string& value);
+  /// `is_changed` flags, which set the results apart from those of the defaults, are listed apart
+  /// as well.
+  void SetFlag(const std::string& name, const std::string& value, bool is_changed);
   /// Records path, size and SHA-256. Throws InputError where the file cannot be read.
   void AddInput(const std::filesystem::path& path);
   void SetResult(const std::string& name, double value);
@@ -28,12 +32,19 @@ class Manifest {
   /// "read 0.03 s, landscape 0.41 s": what AddTiming was told, in its order.
   std::string TimingsText() const;
 
+  /// The files beside the manifest that belong to the run.
+  void SetFiles(const std::vector<std::string>& names);
+
   void Write(const std::filesystem::path& path) const;
 
  private:
   struct Impl;
   std::unique_ptr<Impl> impl_;
 };
+
+/// The files that a manifest lists; nothing where there is no manifest of this program.
+std::optional<std::vector<std::string>> FilesOfManifest(const std::filesystem::path& path,
+                                                        const std::string& program);
 
 /// "0.1.0 (1a2b3c4d5e6f)": release and, where the sources are a git checkout, the commit.
 std::string Version();

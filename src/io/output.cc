@@ -12,8 +12,15 @@
 
 namespace icpscape {
 
+std::unique_lock<std::mutex> HoldOutputFiles() {
+  // Never destroyed: a signal may come while the program ends.
+  static auto* const mutex = new std::mutex;
+  return std::unique_lock<std::mutex>(*mutex);
+}
+
 void WriteThenRename(const std::filesystem::path& path,
                      const std::function<bool(const std::filesystem::path&)>& write) {
+  const std::unique_lock<std::mutex> lock = HoldOutputFiles();
   // The extension is kept: some writers go by it.
   std::filesystem::path part = path;
   part.replace_filename("." + std::to_string(getpid()) + "." + path.filename().string());
@@ -45,6 +52,7 @@ void WriteTextFile(const std::filesystem::path& path, const std::string& text) {
 void PrepareOutputFolder(const std::filesystem::path& folder) {
   std::error_code error;
   std::filesystem::create_directories(folder, error);
+  const std::unique_lock<std::mutex> lock = HoldOutputFiles();
   const std::filesystem::path probe = folder / (".probe." + std::to_string(getpid()));
   std::ofstream out(probe);
   out << "probe";

@@ -4,15 +4,21 @@
 
 #include <filesystem>
 #include <functional>
+#include <mutex>
 #include <string>
 #include <vector>
 
 namespace icpscape {
 
 /// Calls write(part) for a file beside `path` and renames it to `path` when write returned true: a
-/// reader never sees half a file, and an older one survives a failure. Throws InputError.
+/// reader never sees half a file, and an older one survives a failure. One file at a time. Throws
+/// InputError.
 void WriteThenRename(const std::filesystem::path& path,
                      const std::function<bool(const std::filesystem::path&)>& write);
+
+/// While the lock is held nothing is being written by these functions, and no temporary file of
+/// theirs is there: what ends the process takes it first.
+std::unique_lock<std::mutex> HoldOutputFiles();
 
 /// Writes the text as a whole file, as above.
 void WriteTextFile(const std::filesystem::path& path, const std::string& text);

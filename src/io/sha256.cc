@@ -59,4 +59,15 @@ std::string Sha256OfText(const std::string& text) {
   return digest.Hexadecimal();
 }
 
+std::string Sha256OfScan(const std::filesystem::path& file, const PointCloud& cloud) {
+  if (!file.empty()) {
+    return Sha256(file);
+  }
+  std::string bytes;
+  for (const std::vector<float>* axis : {&cloud.x, &cloud.y, &cloud.z}) {
+    bytes.append(reinterpret_cast<const char*>(axis->data()), axis->size() * sizeof(float));
+  }
+  return Sha256OfText(bytes);
+}
+
 }  // namespace icpscape

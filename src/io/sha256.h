@@ -5,12 +5,16 @@
 #include <filesystem>
 #include <string>
 
+#include "src/cloud/point_cloud.h"
+
 namespace icpscape {
 
 /// SHA-256 of a file's bytes, in hexadecimal. Throws InputError where it cannot be read.
 std::string Sha256(const std::filesystem::path& path);
 /// The same of a text.
 std::string Sha256OfText(const std::string& text);
+/// Of a scan: its file's bytes, or the coordinates of a cloud that was not read from a file.
+std::string Sha256OfScan(const std::filesystem::path& file, const PointCloud& cloud);
 
 }  // namespace icpscape
 

@@ -37,9 +37,11 @@ struct Matches {
 /// target, for a given pose.
 class Matcher {
  public:
-  /// The clouds must outlive the matcher.
   Matcher(SearchableCloud source, SearchableCloud target)
-      : source_(std::move(source)), target_(std::move(target)) {}
+      : source_(std::move(source)), target_(std::move(target)) {
+    source_.search();  // Built now, on all threads, and not in the middle of a parallel loop.
+    target_.search();
+  }
   virtual ~Matcher() = default;
   Matcher(const Matcher&) = delete;
   Matcher& operator=(const Matcher&) = delete;

@@ -6,9 +6,9 @@
 
 namespace icpscape {
 
-GroundTruthCheck CheckGroundTruth(const PointCloud& source, const PointCloud& target,
+GroundTruthCheck CheckGroundTruth(const SearchableCloud& source, const SearchableCloud& target,
                                   const SE3d& T_ground_truth, int threads) {
-  const ClosestPointMatcher matcher({source, threads}, {target, threads}, {kGroundTruthCheckGateM});
+  const ClosestPointMatcher matcher(source, target, {kGroundTruthCheckGateM});
   const Objective objective("point_to_plane", matcher);
   MinimizerOptions options;
   options.threads = threads;

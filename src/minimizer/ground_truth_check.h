@@ -22,7 +22,7 @@ inline constexpr double kGroundTruthCheckGateM = 1.0;
 
 /// Refines the pose by point-to-plane with pairs up to kGroundTruthCheckGateM. The target needs
 /// normals. Throws ComputationError where that has no answer.
-GroundTruthCheck CheckGroundTruth(const PointCloud& source, const PointCloud& target,
+GroundTruthCheck CheckGroundTruth(const SearchableCloud& source, const SearchableCloud& target,
                                   const SE3d& T_ground_truth, int threads);
 
 }  // namespace icpscape

@@ -2,6 +2,7 @@
 #include "src/neighbors/neighbor_search.h"
 
 #include <algorithm>
+#include <atomic>
 #include <limits>
 
 #include "src/neighbors/kd_tree.h"
@@ -9,6 +10,8 @@
 
 namespace icpscape {
 namespace {
+
+std::atomic<long> searches_built = 0;
 
 constexpr float kNoLimit = std::numeric_limits<float>::max();
 
@@ -58,7 +61,9 @@ MomentsView View(Neighborhoods* n) {
 
 struct NeighborSearch::Impl {
   Impl(const PointsView& points, int threads)
-      : tree(points, threads), kernels(SearchKernelsAt(ActiveSimdLevel())) {}
+      : tree(points, threads), kernels(SearchKernelsAt(ActiveSimdLevel())) {
+    ++searches_built;
+  }
 
   void Moments(const PointsView& queries, int k, float limit, Neighborhoods* out) const {
     const KdTreeView view = tree.View();
@@ -71,6 +76,8 @@ struct NeighborSearch::Impl {
   KdTree tree;
   const SearchKernels& kernels;
 };
+
+long SearchesBuilt() { return searches_built; }
 
 NeighborSearch::NeighborSearch(const PointsView& points, int threads)
     : impl_(std::make_shared<const Impl>(points, threads)) {}

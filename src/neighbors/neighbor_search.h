@@ -18,6 +18,9 @@ struct Neighbor {
   float squared_distance = 0;
 };
 
+/// How many searches this process has built: each costs as much as matching a scan twice.
+long SearchesBuilt();
+
 /// Exact nearest neighbours among a fixed set of points, which is copied. Copies of the search
 /// share them.
 ///

@@ -6,51 +6,27 @@
 #include "src/common/error.h"
 
 namespace icpscape {
-namespace {
-
-bool NeedsLine(const std::string& metric) { return (MetricNamed(metric).needs & kTargetLine) != 0; }
-bool NeedsPatch(const std::string& metric) {
-  return (MetricNamed(metric).needs & kTargetPatch) != 0;
-}
-
-}  // namespace
 
 bool NeedsFeatures(const std::string& metric) {
   return MatcherKindFor(MetricNamed(metric).needs).WorksOnFeatures();
 }
 
-ObjectiveSet::ObjectiveSet(const PointCloud& source, const PointCloud& target,
-                           const Features& features, const std::vector<std::string>& metrics,
-                           const ObjectiveSetOptions& options) {
-  const SearchableCloud all(target, options.threads);
-  MetricClouds sources;
+unsigned NeedsOf(const std::vector<std::string>& metrics, const MatchingOptions& matching) {
+  unsigned needs =
+      matching.max_normal_angle_rad > 0 ? static_cast<unsigned>(kSourceNormal | kTargetNormal) : 0U;
   for (const std::string& metric : metrics) {
-    if (NeedsLine(metric)) {
-      if (!edges_) {
-        edges_ = std::make_unique<PointCloud>(source.Select(features.edge));
-        sources.edges.emplace(*edges_, options.threads);
-      }
-    } else if (NeedsPatch(metric)) {
-      if (!planar_) {
-        planar_ = std::make_unique<PointCloud>(source.Select(features.planar));
-        sources.planar.emplace(*planar_, options.threads);
-      }
-    } else if (!sources.points) {
-      sources.points.emplace(source, options.threads);
-    }
+    needs |= MetricNamed(metric).needs;
   }
-  AddObjectives(sources, {all, all, all}, metrics, options);
+  return needs;
 }
+
+ObjectiveSet::ObjectiveSet(const PreparedPair& scans, const std::vector<std::string>& metrics,
+                           const ObjectiveSetOptions& options)
+    : ObjectiveSet(scans.source.clouds(), scans.target.AsTarget(), metrics, options) {}
 
 ObjectiveSet::ObjectiveSet(const MetricClouds& source, const MetricClouds& target,
                            const std::vector<std::string>& metrics,
                            const ObjectiveSetOptions& options) {
-  AddObjectives(source, target, metrics, options);
-}
-
-void ObjectiveSet::AddObjectives(const MetricClouds& source, const MetricClouds& target,
-                                 const std::vector<std::string>& metrics,
-                                 const ObjectiveSetOptions& options) {
   for (const std::string& name : metrics) {
     const RegisteredMetric& metric = MetricNamed(name);
     const Matcher& matcher = MatcherFor(metric, source, target, options);

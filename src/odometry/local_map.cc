@@ -3,6 +3,8 @@
 
 #include <vector>
 
+#include "residuals/correspondence.h"
+
 namespace icpscape {
 namespace {
 
@@ -35,31 +37,27 @@ void LocalMap::Insert(const PreparedScan& scan, const SE3d& T_world_lidar, int s
     map->Insert(Within(options_.radius_m, cloud), T_world_lidar, scan_number);
   };
   if (needs_points_) {
-    insert(scan.cloud, &points_);
+    insert(scan.cloud(), &points_);
   }
   if (needs_edges_) {
-    insert(scan.edges, &edges_);
+    insert(scan.clouds().edges->cloud(), &edges_);
   }
   if (needs_planar_) {
-    insert(scan.planar, &planar_);
+    insert(scan.clouds().planar->cloud(), &planar_);
   }
 }
 
-std::unique_ptr<const LocalMap::View> LocalMap::ViewFrom(const SE3d& T_world_frame,
-                                                         int threads) const {
-  auto view = std::make_unique<View>();
+MetricClouds LocalMap::ViewFrom(const SE3d& T_world_frame, int threads) const {
+  MetricClouds view;
   const SE3d T_frame_world = T_world_frame.Inverse();
   if (needs_points_) {
-    view->points = points_.Cloud(T_frame_world);
-    view->clouds.points.emplace(view->points, threads);
+    view.points.emplace(points_.Cloud(T_frame_world), threads);
   }
   if (needs_edges_) {
-    view->edges = edges_.Cloud(T_frame_world);
-    view->clouds.edges.emplace(view->edges, threads);
+    view.edges.emplace(edges_.Cloud(T_frame_world), threads);
   }
   if (needs_planar_) {
-    view->planar = planar_.Cloud(T_frame_world);
-    view->clouds.planar.emplace(view->planar, threads);
+    view.planar.emplace(planar_.Cloud(T_frame_world), threads);
   }
   return view;
 }

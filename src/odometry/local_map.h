@@ -2,10 +2,8 @@
 #ifndef ICPSCAPE_SRC_ODOMETRY_LOCAL_MAP_H_
 #define ICPSCAPE_SRC_ODOMETRY_LOCAL_MAP_H_
 
-#include <memory>
-
-#include "src/odometry/preprocessing.h"
 #include "src/odometry/voxel_map.h"
+#include "src/preparation/prepared_scan.h"
 
 namespace icpscape {
 
@@ -30,15 +28,7 @@ class LocalMap {
 
   /// The map as the target of a registration, in the frame of a pose near which it is needed: float
   /// coordinates stay small.
-  struct View {
-    PointCloud points, edges, planar;
-    MetricClouds clouds;
-
-    View() = default;
-    View(const View&) = delete;  // The clouds refer to this object.
-    View& operator=(const View&) = delete;
-  };
-  std::unique_ptr<const View> ViewFrom(const SE3d& T_world_frame, int threads) const;
+  MetricClouds ViewFrom(const SE3d& T_world_frame, int threads) const;
 
  private:
   LocalMapOptions options_;

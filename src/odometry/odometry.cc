@@ -12,16 +12,6 @@
 namespace icpscape {
 namespace {
 
-unsigned NeedsOf(const OdometryOptions& options) {
-  unsigned needs = options.objective.matching.max_normal_angle_rad > 0
-                       ? static_cast<unsigned>(kSourceNormal | kTargetNormal)
-                       : 0U;
-  for (const std::string& metric : options.metrics) {
-    needs |= MetricNamed(metric).needs;
-  }
-  return needs;
-}
-
 bool AnyFeatures(const std::vector<std::string>& metrics) {
   return std::any_of(metrics.begin(), metrics.end(), NeedsFeatures);
 }
@@ -92,7 +82,7 @@ struct Odometry::Registration {
 
 Odometry::Odometry(OdometryOptions options)
     : options_(std::move(options)),
-      needs_(NeedsOf(options_)),
+      needs_(NeedsOf(options_.metrics, options_.objective.matching)),
       gate_(options_.adaptive_gate_m),
       map_(options_.map, AnyPoints(options_.metrics), needs_) {
   options_.Check();
@@ -102,7 +92,6 @@ Odometry::~Odometry() = default;
 
 ObjectiveSetOptions Odometry::ObjectiveOptions() const {
   ObjectiveSetOptions objective = options_.objective;
-  objective.threads = options_.threads;
   if (options_.adaptive_gate_m > 0) {
     const double gate_m = gate_.MaxDistance_m();
     objective.matching.max_distance_m = gate_m;
@@ -112,40 +101,35 @@ ObjectiveSetOptions Odometry::ObjectiveOptions() const {
   return objective;
 }
 
-Odometry::Registration Odometry::Register(const PreparedScan& source, const PreparedScan& target,
+Odometry::Registration Odometry::Register(const PreparedPair& scans,
                                           const SE3d& T_predicted) const {
-  const ObjectiveSetOptions objective = ObjectiveOptions();
   Registration registration;
+  const auto run = [&](const PreparedPair& pair) {
+    registration.Run(ObjectiveSet(pair, options_.metrics, ObjectiveOptions()), T_predicted,
+                     options_);
+  };
   if (options_.filters.Any()) {
-    const FilteredPair pair =
-        ApplyFilters(source.cloud, target.cloud, T_predicted, options_.filters);
-    registration.Run(
-        ObjectiveSet(pair.source, pair.target, source.features.Select(pair.keep_source),
-                     options_.metrics, objective),
-        T_predicted, options_);
+    run(scans.Select(
+        ApplyFilters(scans.source.cloud(), scans.target.cloud(), T_predicted, options_.filters),
+        options_.threads));
   } else {
-    const SearchableCloud& all = *target.clouds.points;
-    registration.Run(ObjectiveSet(source.clouds, {all, all, all}, options_.metrics, objective),
-                     T_predicted, options_);
+    run(scans);
   }
   return registration;
 }
 
 Odometry::Registration Odometry::RegisterToMap(const PreparedScan& source, const SE3d& T_predicted,
                                                FrameResult* result) const {
-  const auto map = map_.ViewFrom(T_world_last_, options_.threads);
-  result->map_points = map->points.size() + map->edges.size() + map->planar.size();
-  const ObjectiveSetOptions objective = ObjectiveOptions();
-  Registration registration;
-  if (options_.filters.Any()) {
-    const FilteredPair pair =
-        ApplyFilters(source.cloud, map->points, T_predicted, options_.filters);
-    registration.Run(ObjectiveSet(pair.source, pair.target, {}, options_.metrics, objective),
-                     T_predicted, options_);
-  } else {
-    registration.Run(ObjectiveSet(source.clouds, map->clouds, options_.metrics, objective),
-                     T_predicted, options_);
+  const MetricClouds map = map_.ViewFrom(T_world_last_, options_.threads);
+  for (const std::optional<SearchableCloud>* cloud : {&map.points, &map.edges, &map.planar}) {
+    result->map_points += *cloud ? (*cloud)->cloud().size() : 0;
   }
+  if (options_.filters.Any()) {  // Of closest points alone; see OdometryOptions::Check.
+    return Register({source, PreparedScan(*map.points)}, T_predicted);
+  }
+  Registration registration;
+  registration.Run(ObjectiveSet(source.clouds(), map, options_.metrics, ObjectiveOptions()),
+                   T_predicted, options_);
   return registration;
 }
 
@@ -154,22 +138,22 @@ bool Odometry::MapsNow() const {
          (options_.mode == OdometryMode::kTwoStage && size_ % options_.map_every == 0);
 }
 
-std::unique_ptr<const PreparedScan> Odometry::PrepareOrEmpty(PointCloud scan) const {
+PreparedScan Odometry::PrepareOrEmpty(PointCloud scan) const {
   try {
-    return Prepare(std::move(scan), needs_, options_.preprocessing, options_.threads);
+    return Prepare(std::move(scan), needs_, options_.preparation, options_.threads);
   } catch (const InputError& error) {
     if (!last_) {
       throw;
     }
     LOG(WARNING) << "frame " << size_ << ": " << error.what();
-    return Prepare(PointCloud(), needs_, options_.preprocessing, options_.threads);
+    return Prepare(PointCloud(), needs_, options_.preparation, options_.threads);
   }
 }
 
 FrameResult Odometry::Add(PointCloud scan) {
-  auto current = PrepareOrEmpty(std::move(scan));
+  PreparedScan current = PrepareOrEmpty(std::move(scan));
   FrameResult result;
-  result.points = current->cloud.size();
+  result.points = current.cloud().size();
   if (last_) {
     const SE3d T_predicted = options_.constant_velocity ? motion_ : SE3d();
     result.gate_m = ObjectiveOptions().matching.max_distance_m;
@@ -188,11 +172,11 @@ FrameResult Odometry::Add(PointCloud scan) {
     };
     try {
       if (options_.mode != OdometryMode::kScanToMap) {
-        take_over(Register(*current, *last_, T_predicted));
+        take_over(Register({current, *last_}, T_predicted));
         result.motion = T_last_current;
       }
       if (MapsNow()) {
-        take_over(RegisterToMap(*current, T_last_current, &result));
+        take_over(RegisterToMap(current, T_last_current, &result));
       }
     } catch (const ComputationError& error) {  // A filter or a metric was left without a point.
       LOG(WARNING) << "frame " << size_ << ": " << error.what();
@@ -210,12 +194,12 @@ void Odometry::Replay(PointCloud scan, const FrameResult& result) {
   Finish(PrepareOrEmpty(std::move(scan)), result);
 }
 
-void Odometry::Finish(std::unique_ptr<const PreparedScan> scan, const FrameResult& result) {
+void Odometry::Finish(PreparedScan scan, const FrameResult& result) {
   if (options_.adaptive_gate_m > 0 && last_) {
     gate_.Add(options_.constant_velocity ? motion_ : SE3d(), result.motion);
   }
   if (options_.mode != OdometryMode::kScanToScan && (!last_ || MapsNow())) {
-    map_.Insert(*scan, result.T_world_lidar, size_);
+    map_.Insert(scan, result.T_world_lidar, size_);
   }
   last_ = std::move(scan);
   T_world_last_ = result.T_world_lidar;

@@ -2,15 +2,15 @@
 #ifndef ICPSCAPE_SRC_ODOMETRY_ODOMETRY_H_
 #define ICPSCAPE_SRC_ODOMETRY_ODOMETRY_H_
 
-#include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
 #include "src/filtering/filter_chain.h"
 #include "src/minimizer/minimizer.h"
+#include "src/objective/objective_set.h"
 #include "src/odometry/adaptive_gate.h"
 #include "src/odometry/local_map.h"
-#include "src/odometry/preprocessing.h"
 
 namespace icpscape {
 
@@ -28,7 +28,7 @@ struct OdometryOptions {
   OdometryMode mode = OdometryMode::kScanToMap;
   std::vector<std::string> metrics = {"point_to_plane"};
   std::vector<double> weights;  ///< One per metric; none is 1 each.
-  PreprocessingOptions preprocessing;
+  PreparationOptions preparation;
   FilterOptions filters;  ///< T_e is the predicted motion.
   ObjectiveSetOptions objective;
   MinimizerOptions minimizer;
@@ -58,11 +58,11 @@ struct FrameResult {
   long n = 0;                  ///< Pairs of the last stage, at its end.
   double rmse = 0;             ///< Of the last stage, at its end.
   double gate_m = 0;           ///< Longest distance of a pair; 0 is no limit.
-  std::size_t points = 0;      ///< After preprocessing.
+  std::size_t points = 0;      ///< After preparation.
   std::size_t map_points = 0;  ///< Of the map that it was registered to; 0 without one.
 };
 
-/// Lidar odometry: feeds scans one after the other through preprocessing, filters and the closed
+/// Lidar odometry: feeds scans one after the other through preparation, filters and the closed
 /// loop [paper fig. 1], starting each registration from the motion before. A scan that cannot be
 /// registered (no pair is left, the loss is flat) gets the predicted motion, and says so.
 /// Bit-identical for any number of threads.
@@ -83,23 +83,22 @@ class Odometry {
   /// Number of scans so far.
   int size() const { return size_; }
   /// The last scan as it was registered; null before the first.
-  const PreparedScan* last_scan() const { return last_.get(); }
+  const PreparedScan* last_scan() const { return last_ ? &*last_ : nullptr; }
 
  private:
-  std::unique_ptr<const PreparedScan> PrepareOrEmpty(PointCloud scan) const;
+  PreparedScan PrepareOrEmpty(PointCloud scan) const;
   struct Registration;
-  Registration Register(const PreparedScan& source, const PreparedScan& target,
-                        const SE3d& T_predicted) const;
+  Registration Register(const PreparedPair& scans, const SE3d& T_predicted) const;
   Registration RegisterToMap(const PreparedScan& source, const SE3d& T_predicted,
                              FrameResult* result) const;
   ObjectiveSetOptions ObjectiveOptions() const;
   bool MapsNow() const;
-  void Finish(std::unique_ptr<const PreparedScan> scan, const FrameResult& result);
+  void Finish(PreparedScan scan, const FrameResult& result);
 
   OdometryOptions options_;
   unsigned needs_ = 0;
   int size_ = 0;
-  std::unique_ptr<const PreparedScan> last_;
+  std::optional<PreparedScan> last_;
   SE3d T_world_last_;
   SE3d motion_;
   AdaptiveGate gate_;

@@ -211,7 +211,7 @@ PoseErrors RelativeErrors(const TrajectoryPair& pair, int delta) {
   return errors;
 }
 
-Statistics StatisticsOf(std::vector<double> values) {
+Statistics Summarize(std::vector<double> values) {
   CHECK(!values.empty());
   std::sort(values.begin(), values.end());
   const auto n = static_cast<double>(values.size());

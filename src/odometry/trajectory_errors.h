@@ -98,7 +98,7 @@ struct Statistics {
 };
 /// `values` must not be empty (CHECKed). The median of an even number is the mean of the middle
 /// two.
-Statistics StatisticsOf(std::vector<double> values);
+Statistics Summarize(std::vector<double> values);
 
 }  // namespace icpscape
 

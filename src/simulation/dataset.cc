@@ -48,14 +48,14 @@ bool IsWhole(const std::filesystem::path& folder, const std::string& name, const
          std::filesystem::exists(folder / name) && Sha256(folder / name) == files[name];
 }
 
-// Measured data and simulated must not mix: a slip of --out could put a scene among KITTI's, or
-// write over its poses.
+// Measured data and simulated must not mix: a slip in the folder could put a scene among KITTI's,
+// or write over its poses.
 void RefuseForeignSequences(const std::filesystem::path& root) {
   const auto refuse_unless_simulated = [&](const std::string& sequence,
                                            const std::filesystem::path& place) {
     if (!std::filesystem::exists(root / "sequences" / sequence / "simulation.json")) {
       throw InputError(place.string() +
-                       ": holds data that were not simulated here; expected another --out.");
+                       ": holds data that were not simulated here; expected another folder.");
     }
   };
   std::error_code error;

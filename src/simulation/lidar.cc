@@ -51,8 +51,7 @@ struct Ring {
 void LidarOptions::Check() const {
   const auto require = [](bool good, const char* name, double value, const char* expected) {
     if (!good) {
-      throw UsageError("--" + std::string(name) + "=" + Number(value) + ": expected " + expected +
-                       ".");
+      throw UsageError(std::string(name) + "=" + Number(value) + ": expected " + expected + ".");
     }
   };
   require(azimuth_step_deg >= 0.01 && azimuth_step_deg <= 10, "azimuth_step_deg", azimuth_step_deg,

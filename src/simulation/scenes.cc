@@ -7,8 +7,8 @@
 #include "src/common/error.h"
 #include "src/common/text.h"
 #include "src/simulation/highway.h"
+#include "src/simulation/lidar.h"
 #include "src/simulation/random.h"
-#include "src/simulation/simulator.h"
 #include "src/simulation/town.h"
 
 namespace icpscape {
@@ -70,7 +70,7 @@ const Motion& FindMotion(const std::string& scene) {
       return motion;
     }
   }
-  throw UsageError("--scene=" + scene + ": no such scene; expected one of " + Join(SceneNames()) +
+  throw UsageError("scene " + scene + ": no such scene; expected one of " + Join(SceneNames()) +
                    ".");
 }
 
@@ -161,20 +161,6 @@ Scene MakeScene(const std::string& name, std::uint64_t seed) {
   scene.T_world_lidar[1] = T_world_target;
   scene.T_world_lidar[2] = T_world_target * FromVectors(motion.rotation, motion.translation);
   return scene;
-}
-
-SimulatedPair SimulatePair(const std::string& name, std::uint64_t seed, const LidarOptions& options,
-                           int threads) {
-  options.Check();
-  Scene scene = MakeScene(name, seed);
-  SimulatedPair pair;
-  pair.T_target_source = scene.T_target_source();
-  pair.T_prior = scene.T_prior();
-  pair.paper_frame = scene.paper_frame;
-  const Simulator simulator(std::move(scene.world), options, seed);
-  pair.target = simulator.Scan(scene.T_world_lidar[1], 0, 1, threads);
-  pair.source = simulator.Scan(scene.T_world_lidar[2], kScanPeriodS, 2, threads);
-  return pair;
 }
 
 }  // namespace icpscape

@@ -7,8 +7,6 @@
 #include <string>
 #include <vector>
 
-#include "src/cloud/point_cloud.h"
-#include "src/simulation/lidar.h"
 #include "src/simulation/world.h"
 
 namespace icpscape {
@@ -32,24 +30,10 @@ struct Scene {
   std::array<SE3d, kSceneScans> T_world_lidar;  ///< At -0.1, 0 and 0.1 s.
 
   SE3d T_target_source() const { return T_world_lidar[1].Inverse() * T_world_lidar[2]; }
-  /// The motion of the frame before, with which the paper begins.
-  SE3d T_prior() const { return T_world_lidar[0].Inverse() * T_world_lidar[1]; }
 };
 
 /// The scene of that name; the same name and seed give the same scene on every machine.
 Scene MakeScene(const std::string& name, std::uint64_t seed);
-
-/// The pair to register, with the truth about it.
-struct SimulatedPair {
-  PointCloud source;  ///< Frame N.
-  PointCloud target;  ///< Frame N - 1.
-  SE3d T_target_source;
-  SE3d T_prior;
-  std::string paper_frame;
-};
-
-SimulatedPair SimulatePair(const std::string& scene, std::uint64_t seed,
-                           const LidarOptions& options, int threads);
 
 }  // namespace icpscape
 

@@ -34,7 +34,8 @@ TEST_F(BadInput, WrongCommandLines) {
   ExpectRefusal(RunProgram("landscape", Files({"--max_distance_m=-1"})), 1,
                 "expected a number of at least 0");
   ExpectRefusal(RunProgram("landscape", Files({"--threads=-2"})), 1, "--threads=-2");
-  ExpectRefusal(RunProgram("landscape", Files({"--kitti_root=x"})), 1, "expected one of them");
+  ExpectRefusal(RunProgram("landscape", Files({"--kitti_root=x"})), 1,
+                "expected no --scene, --kitti_root");
   ExpectRefusal(RunProgram("landscape", {"--kitti_root=x", "--frame=0"}), 1,
                 "no scan comes before it");
   ExpectRefusal(RunProgram("landscape", {"--kitti_root=x"}), 1, "no --frame");
@@ -110,7 +111,7 @@ TEST_F(BadInput, BrokenData) {
   ExpectRefusal(RunProgram("landscape", Kitti({"--sequence=77"})), 2,
                 "sequences/77: no such folder");
   ExpectRefusal(RunProgram("landscape", Kitti({"--frame=2"})), 2,
-                "2 rows; expected a row for frame 2");
+                "velodyne: no scan 2 among 2 scans");
   const std::string scan = "kitti/sequences/00/velodyne/000001.bin";
   const std::string whole = ReadFile(Path(scan));
   folder_.Write(scan, whole.substr(0, 1000));

@@ -113,12 +113,16 @@ TEST_F(CovarianceApp, WrongCommandLines) {
   refuse("--draws=1", "--draws=1: expected 0, or 2 to");
   refuse("--draws=-3", "--draws=-3");
   refuse("--sensor=broken", "expected one of fixed, redrawn");
-  refuse("--cluster_m=0", "--cluster_m=0");
-  refuse("--rematching_step_m=nan", "--rematching_step_m=nan");
+  refuse("--cluster_m=0", "cluster_m=0: expected 0.01 to 1000 m");
+  refuse("--rematching_step_m=nan", "rematching_step_m=nan");
   refuse("--assumed_range_noise_m=-1", "--assumed_range_noise_m=-1");
   refuse("--length_scale_m=0", "--length_scale_m=0");
   refuse("--start_deg=180", "--start_deg=180");
-  refuse("--octree_voxel_m=0.1", "--octree_voxel_m with draws: expected --draws=0");
+  for (const char* flag : {"--voxel_m=1", "--reverse=true", "--artificial_blind_spot_m=5",
+                           "--ego_filter_m=5", "--elevation_correction_deg=0.2"}) {
+    refuse(flag, std::string(flag) + ": expected --draws=0 with it");
+  }
+  refuse("--octree_voxel_m=0.1", "--octree_voxel_m=0.1: expected --draws=0 with it");
   ExpectRefusal(RunProgram("covariance", Files({"--draws=10"})), 1, "expected 0 without --scene");
   ExpectRefusal(RunProgram("covariance", {}), 1, "no input");
 }

@@ -21,6 +21,7 @@ using testing_support::kProgram;
 using testing_support::OdometryApp;
 using testing_support::Outcome;
 using testing_support::ReadFile;
+using testing_support::RunningProgram;
 using testing_support::RunProgram;
 using testing_support::TheDrive;
 
@@ -77,6 +78,38 @@ TEST_F(OdometryApp, LosesNothingWhenItIsKilled) {
   ExpectSameResults("out", "whole");
 }
 
+// Ctrl-C and SIGTERM, each at one more scan.
+TEST_F(OdometryApp, GoesOnWhereItWasInterrupted) {
+  ASSERT_EQ(Run({}, "whole").code, 0);
+  for (const int signal : {SIGINT, SIGTERM}) {
+    const auto lines = [&] {
+      const std::string text = ReadFile(Path("out/journal.txt"));
+      return std::count(text.begin(), text.end(), '\n');
+    };
+    const auto before = lines();
+    RunningProgram program("odometry", Kitti());
+    while (lines() < before + 2) {
+      std::this_thread::sleep_for(std::chrono::milliseconds(1));
+    }
+    program.Signal(signal);
+    const Outcome outcome = program.Wait();
+    EXPECT_EQ(outcome.code, 128 + signal) << outcome.err;
+    EXPECT_EQ(std::count(outcome.err.begin(), outcome.err.end(), '\n'), 1) << outcome.err;
+    EXPECT_THAT(outcome.err, HasSubstr("the next run goes on from journal.txt.\n"));
+    for (const auto& entry : std::filesystem::directory_iterator(Path("out"))) {
+      EXPECT_EQ(entry.path().filename(), "journal.txt");
+    }
+  }
+  const Outcome outcome = Run();
+  ASSERT_EQ(outcome.code, 0) << outcome.err;
+  EXPECT_THAT(outcome.out, HasSubstr("scans are done, and are replayed"));
+  ExpectSameResults("out", "whole");
+  // A journal is no result that the next run would remove.
+  EXPECT_THAT(outcome.out, HasSubstr("journal.txt"));
+  ASSERT_EQ(Run().code, 0);
+  EXPECT_EQ(Journal().size(), static_cast<std::size_t>(testing_support::kScans));
+}
+
 // A run that is done is told again from its journal alone.
 TEST_F(OdometryApp, RepeatsItsResults) {
   for (const char* mode : {"scan_to_scan", "two_stage"}) {
@@ -111,7 +144,7 @@ TEST_F(OdometryApp, GoesOnWithTheSameFlagsAlone) {
 
   folder_.Write(Scan(1), Bytes(TheDrive().scans[2]));
   ExpectRefusal(Run({frames, "--mode=two_stage"}), 2,
-                "000001.bin: is not the scan of the journal; expected it unchanged, or --restart.");
+                "000001.bin: is not the scan of the journal; expected it unchanged, or a restart.");
   EXPECT_FALSE(std::filesystem::exists(Path("out/manifest.json")));  // The mark of a finished run.
   EXPECT_EQ(Run({frames, "--mode=two_stage", "--restart"}).code, 0);
 

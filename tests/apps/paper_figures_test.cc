@@ -101,8 +101,7 @@ TEST(PaperFigures, MissingScansAreNamedAndSkipped) {
 
 TEST(PaperFigures, WrongCommandLines) {
   ExpectRefusal(RunProgram("paper_figures", {"--figure=02_7"}), 1, "01_420_octree");
-  ExpectRefusal(RunProgram("paper_figures", {"--source=kitti"}), 1, "--kitti_root=DIR");
-  ExpectRefusal(RunProgram("paper_figures", {"--source=memory"}), 1, "simulated or kitti");
+  ExpectRefusal(RunProgram("paper_figures", {"--threads=-1"}), 1, "--threads=-1");
   ExpectRefusal(RunProgram("paper_figures", {"--samples=1"}), 1, "at least 2");
   ExpectRefusal(RunProgram("paper_figures", {"--turn_frame=1"}), 1, "--turn_frame=1");
 }

@@ -23,7 +23,7 @@ constexpr double kLimitDeg = 0.02;
 // One comparison of RegisterOurs, or of it with the normals before, with another registration.
 class Rows {
  public:
-  Rows(const ScanPair& pair, int rounds) : pair_(pair), rounds_(rounds) {}
+  Rows(const BenchmarkPair& pair, int rounds) : pair_(pair), rounds_(rounds) {}
 
   using Registration = std::function<LoopResult()>;
 
@@ -64,7 +64,7 @@ class Rows {
   }
 
  private:
-  const ScanPair& pair_;
+  const BenchmarkPair& pair_;
   int rounds_;
 };
 
@@ -75,7 +75,7 @@ std::string WholeTitle(int threads) {
   return "point-to-plane registration with the target's normals, " + ThreadsTitle(threads);
 }
 
-void AddPcl(const ScanPair& pair, const Rows& rows) {
+void AddPcl(const BenchmarkPair& pair, const Rows& rows) {
   const PclCloud source = MakePclCloud(pair.source);
   const PclCloud target = MakePclCloud(pair.target);
   const auto loop = [source](const PclCloud& with_normals) {
@@ -102,7 +102,7 @@ int Open3dIterations(const Open3dCloud& source, const Open3dCloud& target) {
   return kLoopMaxIterations;
 }
 
-void AddOpen3d(const ScanPair& pair, const Rows& rows) {
+void AddOpen3d(const BenchmarkPair& pair, const Rows& rows) {
   const Open3dCloud source = MakeOpen3dCloud(pair.source);
   const Open3dCloud target = MakeOpen3dCloud(pair.target);
   const auto iterations = std::make_shared<int>(0);  // Counted when first needed.
@@ -122,7 +122,7 @@ void AddOpen3d(const ScanPair& pair, const Rows& rows) {
   }
 }
 
-void AddOwn(const ScanPair& pair, const Rows& rows) {
+void AddOwn(const BenchmarkPair& pair, const Rows& rows) {
   for (const int threads : {1, 2}) {
     rows.Add(
         ThreadsName(threads) + "/by_hand", LoopTitle(threads), 1 / 1.15, rows.Ours(threads),
@@ -149,7 +149,7 @@ void AddOwn(const ScanPair& pair, const Rows& rows) {
 
 }  // namespace
 
-void RegisterClosedLoop(const ScanPair& pair, int rounds) {
+void RegisterClosedLoop(const BenchmarkPair& pair, int rounds) {
   const Rows rows(pair, rounds);
   AddPcl(pair, rows);
   if (!Open3dVersion().empty()) {

@@ -26,9 +26,9 @@ const std::vector<std::string> kFive = {"point_to_point", "point_to_plane", "sym
                                         "edge_to_line", "planar_to_patch"};
 
 // Curves of the metrics at all poses: trees, matches, values and slopes.
-std::vector<Curve> OurCurves(const ScanPair& pair, const std::vector<std::string>& metrics,
+std::vector<Curve> OurCurves(const BenchmarkPair& pair, const std::vector<std::string>& metrics,
                              int threads) {
-  const ObjectiveSet set(pair.source, pair.target, pair.features, metrics, ObjectiveSetOptions());
+  const ObjectiveSet set(Prepared(pair, threads), metrics, ObjectiveSetOptions());
   CurveOptions options;
   options.samples = kPoses;
   options.threads = threads;
@@ -38,7 +38,7 @@ std::vector<Curve> OurCurves(const ScanPair& pair, const std::vector<std::string
 
 // Some of those poses, in the middle of equal parts of the path.
 struct Poses {
-  Poses(const ScanPair& pair, int count) {
+  Poses(const BenchmarkPair& pair, int count) {
     CurveOptions options;
     options.samples = kPoses;
     const Path path(SE3d(), *pair.T_ground_truth, PathKind::kLerpSlerp);
@@ -66,7 +66,7 @@ struct Poses {
 };
 
 // The naive loop: PCL, one thread, one search per metric, point and pose.
-void AddNaive(const ScanPair& pair, const std::string& name, const std::string& title,
+void AddNaive(const BenchmarkPair& pair, const std::string& name, const std::string& title,
               const std::vector<std::string>& metrics, double goal, int rounds) {
   const auto curves = std::make_shared<std::vector<Curve>>();
   const auto theirs = std::make_shared<std::vector<std::vector<double>>>();
@@ -102,7 +102,7 @@ void AddNaive(const ScanPair& pair, const std::string& name, const std::string& 
            rounds);
 }
 
-void AddByHand(const ScanPair& pair, int threads, double goal, int rounds) {
+void AddByHand(const BenchmarkPair& pair, int threads, double goal, int rounds) {
   const auto curves = std::make_shared<std::vector<Curve>>();
   const auto theirs = std::make_shared<std::vector<std::array<double, 3>>>();
   const Poses poses(pair, FLAGS_by_hand_poses);
@@ -129,7 +129,7 @@ void AddByHand(const ScanPair& pair, int threads, double goal, int rounds) {
            rounds);
 }
 
-void AddThreads(const ScanPair& pair, const std::string& name, const std::string& title,
+void AddThreads(const BenchmarkPair& pair, const std::string& name, const std::string& title,
                 const std::vector<std::string>& metrics, int rounds) {
   const auto two = std::make_shared<std::vector<Curve>>();
   const auto one = std::make_shared<std::vector<Curve>>();
@@ -150,7 +150,7 @@ void AddThreads(const ScanPair& pair, const std::string& name, const std::string
 
 }  // namespace
 
-void RegisterLandscape(const ScanPair& pair, int rounds) {
+void RegisterLandscape(const BenchmarkPair& pair, int rounds) {
   const std::string three = "landscape, 3 closest-point metrics, 100 poses, 2 threads";
   const std::string five = "landscape, all five metrics of the paper, 100 poses, 2 threads";
   AddNaive(pair, "closest_point", three, kClosestPoint, 60, rounds);

@@ -5,7 +5,7 @@
 
 #include <iostream>
 
-#include "apps/pair_flags.h"
+#include "apps/flags/pair.h"
 #include "src/common/error.h"
 #include "src/simd/level.h"
 #include "tests/benchmarks/comparison.h"
@@ -17,7 +17,7 @@ namespace icpscape {
 namespace {
 
 // What the table needs to know besides the times.
-void AddContext(const ScanPair& pair) {
+void AddContext(const BenchmarkPair& pair) {
   benchmark::AddCustomContext("pair", pair.title);
   benchmark::AddCustomContext("source_points", std::to_string(pair.source.size()));
   benchmark::AddCustomContext("target_points", std::to_string(pair.target.size()));
@@ -32,7 +32,7 @@ int Run() {
   const std::vector<std::string> metrics = {"symmetric", "edge_to_line", "planar_to_patch"};
   CheckPairFlags(metrics, true);
   Manifest manifest("benchmarks");
-  const ScanPair pair = LoadPair(metrics, &manifest);
+  const BenchmarkPair pair = LoadPair(metrics, &manifest);
   AddContext(pair);
   RegisterNeighborSearch(pair, FLAGS_rounds);
   RegisterNormals(pair, FLAGS_rounds);

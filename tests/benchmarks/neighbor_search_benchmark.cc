@@ -44,7 +44,8 @@ struct Work {
 double NanoflannGoal() { return ActiveSimdLevel() == SimdLevel::kBaseline ? 2 : 4; }
 
 // Searches whose trees stand and whose queries are ordered.
-void RegisterSearches(const ScanPair& pair, const std::string& pose, const SE3d& T, int rounds) {
+void RegisterSearches(const BenchmarkPair& pair, const std::string& pose, const SE3d& T,
+                      int rounds) {
   const auto work = std::make_shared<Work>(pair.source, pair.target, T);
   const auto tree = std::make_shared<NeighborSearch>(pair.target.View());
   const auto nanoflann = std::make_shared<NanoflannTree>(pair.target);
@@ -94,7 +95,7 @@ void RegisterSearches(const ScanPair& pair, const std::string& pose, const SE3d&
 }
 
 // What must be done before the first search.
-void RegisterTrees(const ScanPair& pair, int rounds) {
+void RegisterTrees(const BenchmarkPair& pair, int rounds) {
   const PointCloud& target = pair.target;
   const Side ours = {"icpscape", [&target] { const NeighborSearch search(target.View()); }};
   Register({"nearest/build/nanoflann",
@@ -148,7 +149,7 @@ void RegisterTrees(const ScanPair& pair, int rounds) {
 
 }  // namespace
 
-void RegisterNeighborSearch(const ScanPair& pair, int rounds) {
+void RegisterNeighborSearch(const BenchmarkPair& pair, int rounds) {
   RegisterSearches(pair, "identity", SE3d(), rounds);
   RegisterSearches(pair, "true", *pair.T_ground_truth, rounds);
   RegisterTrees(pair, rounds);

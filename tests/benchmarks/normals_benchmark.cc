@@ -11,7 +11,7 @@
 namespace icpscape {
 
 // Each side builds its tree.
-void RegisterNormals(const ScanPair& pair, int rounds) {
+void RegisterNormals(const BenchmarkPair& pair, int rounds) {
   constexpr int kNeighbors = 20;
   const double goal = FromAvx2(5);
   const auto run_ours = [](int threads, PointCloud* cloud) {

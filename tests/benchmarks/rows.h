@@ -4,20 +4,19 @@
 
 #include <string>
 
-#include "apps/pair_flags.h"
 #include "src/simd/level.h"
+#include "tests/benchmarks/benchmark_pair.h"
 
 namespace icpscape {
 
 // What one table of ratios consists of: each function registers its comparisons over the pair,
-// which has normals, features and a ground truth, and must outlive the run. The goals are issue
-// 5's.
+// which must outlive the run.
 
-void RegisterNeighborSearch(const ScanPair& pair, int rounds);
-void RegisterNormals(const ScanPair& pair, int rounds);
-void RegisterVoxelFilter(const ScanPair& pair, int rounds);
-void RegisterLandscape(const ScanPair& pair, int rounds);
-void RegisterClosedLoop(const ScanPair& pair, int rounds);
+void RegisterNeighborSearch(const BenchmarkPair& pair, int rounds);
+void RegisterNormals(const BenchmarkPair& pair, int rounds);
+void RegisterVoxelFilter(const BenchmarkPair& pair, int rounds);
+void RegisterLandscape(const BenchmarkPair& pair, int rounds);
+void RegisterClosedLoop(const BenchmarkPair& pair, int rounds);
 
 /// The goal of work that is measured at AVX2 and above; 0, for none, where the program was told to
 /// run at the baseline.

@@ -7,7 +7,7 @@
 #include <functional>
 #include <iostream>
 
-#include "apps/pair_flags.h"
+#include "apps/flags/pair.h"
 #include "src/cloud/normals.h"
 #include "src/common/error.h"
 #include "src/common/text.h"
@@ -54,9 +54,9 @@ std::vector<int> PosesFromFlags() {
   return poses;
 }
 
-void AddLandscape(const ScanPair& pair, int poses, int threads) {
+void AddLandscape(const BenchmarkPair& pair, int poses, int threads) {
   Add("landscape", threads, poses, [&pair, poses, threads] {
-    const ObjectiveSet set(pair.source, pair.target, pair.features,
+    const ObjectiveSet set(Prepared(pair, threads),
                            {"point_to_point", "point_to_plane", "symmetric"},
                            ObjectiveSetOptions());
     CurveOptions options;
@@ -67,7 +67,7 @@ void AddLandscape(const ScanPair& pair, int poses, int threads) {
   });
 }
 
-void AddAll(const ScanPair& pair) {
+void AddAll(const BenchmarkPair& pair) {
   const auto tree = std::make_shared<NeighborSearch>(pair.target.View());
   const auto nanoflann = std::make_shared<NanoflannTree>(pair.target);
   const auto queries = std::make_shared<PointCloud>(
@@ -94,7 +94,7 @@ void Run() {
   CheckPairFlags({"symmetric"}, true);
   PosesFromFlags();
   Manifest manifest("scaling");
-  const ScanPair pair = LoadPair({"symmetric"}, &manifest);
+  const BenchmarkPair pair = LoadPair({"symmetric"}, &manifest);
   benchmark::AddCustomContext("source_points", std::to_string(pair.source.size()));
   benchmark::AddCustomContext("target_points", std::to_string(pair.target.size()));
   benchmark::AddCustomContext("widest_simd", SimdLevelName(ActiveSimdLevel()));

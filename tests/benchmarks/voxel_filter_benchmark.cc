@@ -11,7 +11,7 @@
 
 namespace icpscape {
 
-void RegisterVoxelFilter(const ScanPair& pair, int rounds) {
+void RegisterVoxelFilter(const BenchmarkPair& pair, int rounds) {
   constexpr double kVoxelM = 0.25;
   const std::string title = "voxel filter, 0.25 m, 1 thread";
   const auto filtered = std::make_shared<PointCloud>();

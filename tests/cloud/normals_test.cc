@@ -6,6 +6,8 @@
 #include <pcl/features/normal_3d.h>
 
 #include <Eigen/Eigenvalues>
+#include <algorithm>
+#include <vector>
 
 #include "src/io/kitti.h"
 #include "src/neighbors/neighbor_search.h"
@@ -79,6 +81,30 @@ TEST(Normals, CovarianceOfFourPointsByHand) {
   }
 }
 
+// By default of the 20 nearest points, the point itself among them.
+TEST(Normals, CovarianceOfTheTwentyNearestByBruteForce) {
+  const PointCloud cloud = testing_support::Room(60, 1);
+  const std::vector<Mat3> covariances = EstimateCovariances(cloud, {}, 1);
+  for (std::size_t i = 0; i < cloud.size(); ++i) {
+    std::vector<Vec3> nearest;
+    for (std::size_t j = 0; j < cloud.size(); ++j) {
+      nearest.push_back(cloud.Point(j) - cloud.Point(i));
+    }
+    std::sort(nearest.begin(), nearest.end(),
+              [](const Vec3& a, const Vec3& b) { return a.norm() < b.norm(); });
+    nearest.resize(20);
+    Vec3 mean = Vec3::Zero();
+    for (const Vec3& d : nearest) {
+      mean += d / 20;
+    }
+    Mat3 expected = Mat3::Zero();
+    for (const Vec3& d : nearest) {
+      expected += (d - mean) * (d - mean).transpose() / 20;
+    }
+    EXPECT_LE((covariances[i] - expected).norm(), 1e-5 * expected.norm());
+  }
+}
+
 TEST(Normals, SameBitsForAnyNumberOfThreads) {
   PointCloud one = testing_support::Room(5000, 1, SE3d(), 0.01);
   PointCloud three = one;
@@ -94,7 +120,7 @@ TEST(Normals, AgreeWithPclOnARealScan) {
   ICPSCAPE_SKIP_WITHOUT_KITTI();
   const std::filesystem::path root = KittiRoot();
   DroppedPoints dropped;
-  PointCloud cloud = ReadVelodyne(KittiSequence(root, "00").ScanPath(95), &dropped);
+  PointCloud cloud = ReadVelodyne(KittiFiles(root, "00").Scan(95), &dropped);
   EstimateNormals({}, 2, &cloud);
   const NeighborSearch search(cloud.View());
   const std::vector<Mat3> covariances = EstimateCovariances(cloud, {}, 2);

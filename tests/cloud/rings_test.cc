@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <ostream>
 #include <random>
 
 #include "src/common/error.h"
@@ -117,6 +118,11 @@ struct Scan {
   int frame;
 };
 
+// How a test's parameter reads in its name and its output.
+void PrintTo(const Scan& scan, std::ostream* out) {
+  *out << "scan_" << scan.sequence << "_" << scan.frame;
+}
+
 class RealRings : public testing::TestWithParam<Scan> {};
 
 TEST_P(RealRings, Are64FromTopToBottom) {
@@ -158,10 +164,7 @@ INSTANTIATE_TEST_SUITE_P(Kitti, RealRings,
                          testing::Values(Scan{"00", 0}, Scan{"00", 14}, Scan{"00", 15},
                                          Scan{"00", 94}, Scan{"00", 95}, Scan{"07", 0},
                                          Scan{"07", 4}),
-                         [](const auto& test) {
-                           return std::string("scan_") + test.param.sequence + "_" +
-                                  std::to_string(test.param.frame);
-                         });
+                         testing::PrintToStringParamName());
 
 }  // namespace
 }  // namespace icpscape

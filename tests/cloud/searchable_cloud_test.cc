@@ -3,6 +3,8 @@
 
 #include <gtest/gtest.h>
 
+#include <optional>
+
 #include "src/cloud/normals.h"
 #include "tests/support/scenes.h"
 
@@ -22,7 +24,7 @@ TEST(SearchableCloud, IsTheSameWithASearchThatIsThereAlready) {
     EXPECT_EQ(given.nz, own.nz);
   }
   const SearchableCloud a(own), b(given, search);
-  EXPECT_EQ(&b.cloud(), &given);
+  EXPECT_EQ(b.cloud().x, given.x);
   EXPECT_EQ(a.search().Order(), b.search().Order());
   ASSERT_EQ(a.points().size, b.points().size);
   for (std::size_t i = 0; i < own.size(); ++i) {
@@ -41,6 +43,20 @@ TEST(SearchableCloud, MayBeEmpty) {
   const SearchableCloud cloud(none);
   EXPECT_EQ(cloud.points().size, 0U);
   EXPECT_TRUE(cloud.search().Order().empty());
+}
+
+// Copies share the cloud and its search, and outlive what they were made of.
+TEST(SearchableCloud, OwnsWhatItIsMadeOf) {
+  const long before = SearchesBuilt();
+  std::optional<SearchableCloud> first(testing_support::Room(500, 3));
+  const SearchableCloud copy = *first;
+  EXPECT_EQ(SearchesBuilt(), before);  // Nobody has searched yet.
+  EXPECT_EQ(&copy.search(), &first->search());
+  EXPECT_EQ(&copy.cloud(), &first->cloud());
+  first.reset();
+  EXPECT_EQ(copy.cloud().size(), 500U);
+  EXPECT_EQ(copy.search().Nearest(copy.cloud().Point(7).cast<float>(), 1).index, 7);
+  EXPECT_EQ(SearchesBuilt(), before + 1);
 }
 
 }  // namespace

@@ -10,6 +10,7 @@
 #include "src/matching/closest_point_matcher.h"
 #include "src/minimizer/minimizer.h"
 #include "src/simulation/scenes.h"
+#include "src/simulation/simulated_sequence.h"
 
 namespace icpscape {
 namespace {
@@ -200,11 +201,11 @@ TEST(Degeneracy, EigenvaluesAreInTheStatedLength) {
 TEST(Degeneracy, AHighwayHoldsLeastAlongItself) {
   LidarOptions lidar;
   lidar.azimuth_step_deg = 0.72;
-  SimulatedPair pair = SimulatePair("highway", 1, lidar, 2);
+  ScanPair pair = SimulatePair("highway", 1, lidar, 2);
   EstimateNormals({}, 2, &pair.target);
   const ClosestPointMatcher matcher(pair.source, pair.target, {1.0});
   const Objective objective("point_to_plane", matcher);
-  const SE3d& T = pair.T_target_source;
+  const SE3d& T = *pair.T_ground_truth;
   const Matches matches = objective.Match(T, 2);
   const Mat6 hessian = objective.Evaluate(T, matches, 2).sums.Hessian();
   const EigenDirections eigen = EigenDirectionsOf(hessian, 10);

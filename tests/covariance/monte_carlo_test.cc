@@ -5,6 +5,8 @@
 
 #include "src/common/error.h"
 #include "src/simulation/scenes.h"
+#include "src/simulation/simulated_sequence.h"
+#include "tests/support/prepared.h"
 
 namespace icpscape {
 namespace {
@@ -45,15 +47,16 @@ TEST(MonteCarlo, IsTheSameForAnyNumberOfThreads) {
 TEST(MonteCarlo, FirstDrawIsThePairOfTheSeed) {
   const MonteCarloOptions options = Small();
   const DrawResult draw = RunMonteCarlo(options)[0][0];
-  SimulatedPair pair = SimulatePair(options.scene, options.seed, options.lidar, 1);
+  ScanPair pair = SimulatePair(options.scene, options.seed, options.lidar, 1);
   EstimateNormals({}, 1, &pair.source);
   EstimateNormals({}, 1, &pair.target);
-  const ObjectiveSet set(pair.source, pair.target, {}, options.metrics, options.objective);
+  const ObjectiveSet set(testing_support::AsPrepared(pair.source, pair.target), options.metrics,
+                         options.objective);
   RandomStartOptions start = options.start;
   start.count = 1;
   const MinimizerSummary summary = Minimize(
-      set.objectives()[0], RandomStarts(pair.T_target_source, start)[0], PreciseMinimizer());
-  const Vec6 error = (pair.T_target_source.Inverse() * summary.T_target_source()).Log();
+      set.objectives()[0], RandomStarts(*pair.T_ground_truth, start)[0], PreciseMinimizer());
+  const Vec6 error = (pair.T_ground_truth->Inverse() * summary.T_target_source()).Log();
   EXPECT_LT((draw.error - error).norm(), 1e-12);
 }
 

@@ -25,7 +25,7 @@ PointCloud Along(const std::vector<Vec3>& points) {
 TEST(ArtificialBlindSpots, IsACylinderWithItsBorder) {
   const PointCloud cloud =
       Along({{5, 0, 0}, {5.001, 0, 0}, {3, 4, 100}, {3, -4.01, -2}, {0, 0, -1.7}});
-  EXPECT_THAT(ArtificialBlindSpots(cloud, cloud, 5).source.label, testing::ElementsAre(1, 3));
+  EXPECT_THAT(ArtificialBlindSpots(cloud, cloud, 5).source, testing::ElementsAre(0, 1, 0, 1, 0));
   EXPECT_THROW(ArtificialBlindSpots(cloud, cloud, 0), UsageError);
   EXPECT_THROW(ArtificialBlindSpots(cloud, cloud, std::nan("")), UsageError);
 }
@@ -39,11 +39,9 @@ TEST(EgoBlindSpotFilter, DropsWhatTheOtherSensorCannotSee) {
   const PointCloud target = Along({{7, 0, 0}, {7.01, 0, 0}, {-2.99, 0, 0}, {-3.01, 0, 0}});
   const PointCloud source =
       Along({{0, 7, 0}, {0, 7.01, 0}, {0, -2.99, 0}, {-3.01, 0, 0}, {-5, 2, 9}});
-  const FilteredPair pair = EgoBlindSpotFilter(source, target, T, 5);
-  EXPECT_THAT(pair.keep_target, testing::ElementsAre(0, 1, 0, 1));
-  EXPECT_THAT(pair.keep_source, testing::ElementsAre(0, 1, 0, 0, 0));
-  EXPECT_THAT(pair.target.label, testing::ElementsAre(1, 3));
-  EXPECT_THAT(pair.source.label, testing::ElementsAre(1));
+  const KeptPoints kept = EgoBlindSpotFilter(source, target, T, 5);
+  EXPECT_THAT(kept.target, testing::ElementsAre(0, 1, 0, 1));
+  EXPECT_THAT(kept.source, testing::ElementsAre(0, 1, 0, 0, 0));
   EXPECT_THROW(EgoBlindSpotFilter(source, target, T, -1), UsageError);
 }
 
@@ -55,11 +53,12 @@ TEST(EgoBlindSpotFilter, WithoutMotionIsTheArtificialBlindSpot) {
     }
   }
   const PointCloud cloud = Along(points);
-  const FilteredPair pair = EgoBlindSpotFilter(cloud, cloud, SE3d(), kEgoBlindSpotRadius_m);
-  const PointCloud ring = ArtificialBlindSpots(cloud, cloud, kEgoBlindSpotRadius_m).source;
-  EXPECT_EQ(pair.source.label, ring.label);
-  EXPECT_EQ(pair.target.label, ring.label);
-  EXPECT_EQ(ring.size(), 17U * 17U - 81U);  // 81 lattice points lie within a circle of radius 5.
+  const KeptPoints kept = EgoBlindSpotFilter(cloud, cloud, SE3d(), kEgoBlindSpotRadius_m);
+  const std::vector<char> ring = ArtificialBlindSpots(cloud, cloud, kEgoBlindSpotRadius_m).source;
+  EXPECT_EQ(kept.source, ring);
+  EXPECT_EQ(kept.target, ring);
+  EXPECT_EQ(std::count(ring.begin(), ring.end(), 1),
+            17 * 17 - 81);  // 81 lattice points lie within a circle of radius 5.
 }
 
 TEST(EgoBlindSpotFilter, LeavesTheSameGroundToBothScans) {
@@ -73,13 +72,14 @@ TEST(EgoBlindSpotFilter, LeavesTheSameGroundToBothScans) {
       ground_source.emplace_back(x - 3, y, -1.7);
     }
   }
+  const PointCloud all_target = Along(ground_target), all_source = Along(ground_source);
   const PointCloud target =
-      ArtificialBlindSpots(Along(ground_target), Along(ground_target), 5).source;
+      all_target.Select(ArtificialBlindSpots(all_target, all_target, 5).source);
   const PointCloud source =
-      ArtificialBlindSpots(Along(ground_source), Along(ground_source), 5).source;
+      all_source.Select(ArtificialBlindSpots(all_source, all_source, 5).source);
   EXPECT_NE(source.label, target.label);
-  const FilteredPair pair = EgoBlindSpotFilter(source, target, T, 5);
-  EXPECT_EQ(pair.source.label, pair.target.label);
+  const KeptPoints kept = EgoBlindSpotFilter(source, target, T, 5);
+  EXPECT_EQ(source.Select(kept.source).label, target.Select(kept.target).label);
 }
 
 }  // namespace

@@ -173,14 +173,36 @@ TEST(Manifest, HashesInputs) {
   const TemporaryFolder folder;
   Manifest manifest("test");
   manifest.AddInput(folder.Write("abc", "abc"));
-  manifest.SetFlag("samples", "100");
+  manifest.SetFlag("samples", "100", false);
+  manifest.SetFlag("voxel_m", "0.5", true);
   manifest.Write(folder.path() / "manifest.json");
   const auto json = nlohmann::json::parse(ReadFile(folder.path() / "manifest.json"));
   // The first test vector of FIPS 180-2.
   EXPECT_EQ(json["inputs"][(folder.path() / "abc").string()]["sha256"],
             "ba7816bf8f01cfea414140de5dae2223b00361a396177a9cb410ff61f20015ad");
   EXPECT_EQ(json["flags"]["samples"], "100");
+  EXPECT_EQ(json["flags"]["voxel_m"], "0.5");
+  EXPECT_EQ(json["changed_flags"], nlohmann::json({{"voxel_m", "0.5"}}));
   EXPECT_THAT(json["version"].get<std::string>(), testing::StartsWith("0."));
+}
+
+TEST(Manifest, ListsFilesForTheSameProgramAlone) {
+  const TemporaryFolder folder;
+  const std::filesystem::path path = folder.path() / "manifest.json";
+  EXPECT_FALSE(FilesOfManifest(path, "test").has_value());
+  Manifest manifest("test");
+  manifest.SetFiles({"curves.csv", "data/1.txt"});
+  manifest.Write(path);
+  EXPECT_THAT(FilesOfManifest(path, "test").value(),
+              testing::ElementsAre("curves.csv", "data/1.txt"));
+  EXPECT_FALSE(FilesOfManifest(path, "another").has_value());
+  // Of an earlier version, which listed none, and of nobody.
+  folder.Write("manifest.json", R"({"program": "test"})");
+  EXPECT_TRUE(FilesOfManifest(path, "test").value().empty());
+  folder.Write("manifest.json", R"({"program": "test", "files": ["a.csv", 3]})");
+  EXPECT_THAT(FilesOfManifest(path, "test").value(), testing::ElementsAre("a.csv"));
+  folder.Write("manifest.json", "no JSON");
+  EXPECT_FALSE(FilesOfManifest(path, "test").has_value());
 }
 
 }  // namespace

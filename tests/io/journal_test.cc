@@ -143,7 +143,7 @@ TEST_F(JournalTest, RefusesAnotherHeaderByItsFirstDifference) {
   const std::string text = Write({"first record"});
   EXPECT_THAT(Refusal("program; version=1; voxel_m=0.5; scans=4"),
               EndsWith("journal.txt: was written with voxel_m=0.25, now voxel_m=0.5; expected the "
-                       "same, another folder (--out), or to begin anew (--restart)."));
+                       "same, another folder, or a restart."));
   EXPECT_THAT(Refusal("program; version=1; voxel_m=0.25; scans=3; more=1"),
               HasSubstr("with nothing, now more=1"));
   EXPECT_THAT(Refusal("program; version=1; voxel_m=0.25"), HasSubstr("with scans=3, now nothing"));

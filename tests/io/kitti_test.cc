@@ -7,6 +7,7 @@
 #include <fstream>
 
 #include "src/common/error.h"
+#include "src/io/sequences.h"
 #include "tests/support/real_scans.h"
 #include "tests/support/temporary_folder.h"
 
@@ -58,34 +59,21 @@ TEST(Velodyne, RefusesBrokenFilesInOneSentence) {
               HasSubstr("no usable point among 1"));
 }
 
-TEST(Velodyne, ElevationCorrectionTurnsAboutTheHorizontalAxis) {
-  PointCloud cloud;
-  cloud.x = {10, 0};
-  cloud.y = {0, 5};
-  cloud.z = {0, 5};
-  CorrectElevation(1, &cloud);
-  // The first point rises by 1 degree on a circle of 10 m; the second from 45 to 46 degrees.
-  EXPECT_NEAR(cloud.x[0], 10 * std::cos(M_PI / 180), 1e-6);
-  EXPECT_NEAR(cloud.z[0], 10 * std::sin(M_PI / 180), 1e-6);
-  EXPECT_NEAR(cloud.y[1], std::sqrt(50) * std::cos(46 * M_PI / 180), 1e-6);
-  EXPECT_NEAR(cloud.z[1], std::sqrt(50) * std::sin(46 * M_PI / 180), 1e-6);
-}
-
-TEST(KittiPoses, RelativeMotionThroughTheCalibration) {
+TEST(KittiPoses, MotionGoesThroughTheCalibration) {
   const TemporaryFolder folder;
   // The camera looks along the lidar's x: p_camera = (-y, -z, x).
   folder.Write("sequences/09/calib.txt",
                "P0: 1 0 0 0 0 1 0 0 0 0 1 0\nTr: 0 -1 0 0 0 0 -1 0 1 0 0 0\n");
   // The camera moves 2 m along its z (forwards) from row 0 to row 1.
   folder.Write("poses/09.txt", "1 0 0 0 0 1 0 0 0 0 1 0\n1 0 0 0 0 1 0 0 0 0 1 2\n");
-  const SE3d T = KittiSequence(folder.path(), "09").RelativeMotion(0, 1);
+  const SE3d T = *OpenKittiSequence(folder.path(), "09").Motion(0, 1);
   EXPECT_LE((T.t() - Vec3(2, 0, 0)).norm(), 1e-12);
   EXPECT_LE((T.R() - Mat3::Identity()).norm(), 1e-12);
 }
 
 TEST(KittiPoses, RefusesBrokenFilesInOneSentence) {
   const TemporaryFolder folder;
-  EXPECT_THAT(MessageOf<InputError>([&] { KittiSequence(folder.path(), "77"); }),
+  EXPECT_THAT(MessageOf<InputError>([&] { KittiFiles(folder.path(), "77"); }),
               HasSubstr("expected a KITTI odometry sequence"));
   EXPECT_THAT(MessageOf<InputError>([&] { ReadKittiCalibration(folder.path() / "calib.txt"); }),
               HasSubstr("expected a KITTI calib.txt"));
@@ -106,16 +94,15 @@ TEST(KittiPoses, RefusesBrokenFilesInOneSentence) {
   EXPECT_THAT(MessageOf<InputError>([&] { ReadKittiPoses(scaled); }), HasSubstr("not rigid"));
   folder.Write("sequences/03/calib.txt", "Tr: 1 0 0 0 0 1 0 0 0 0 1 0\n");
   folder.Write("poses/03.txt", "1 0 0 0 0 1 0 0 0 0 1 0\n");
-  EXPECT_THAT(
-      MessageOf<InputError>([&] { KittiSequence(folder.path(), "03").RelativeMotion(0, 1); }),
-      HasSubstr("1 rows; expected a row for frame 1"));
+  EXPECT_THAT(MessageOf<InputError>([&] { OpenKittiSequence(folder.path(), "03").Motion(0, 1); }),
+              HasSubstr("1 rows; expected a row for frame 1"));
 }
 
 // 00/95: a right turn of 1.24 degrees over 0.475 m (the data's own description).
 TEST(KittiPoses, RealTurn) {
   ICPSCAPE_SKIP_WITHOUT_KITTI();
   const std::filesystem::path root = KittiRoot();
-  const SE3d T = KittiSequence(root, "00").RelativeMotion(94, 95);
+  const SE3d T = *OpenKittiSequence(root, "00").Motion(94, 95);
   EXPECT_NEAR(T.t().norm(), 0.475, 1e-3);
   EXPECT_NEAR(T.LogRotation().z() * 180 / M_PI, -1.24, 5e-3);
   EXPECT_GT(T.t().x(), 0.47);

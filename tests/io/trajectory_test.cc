@@ -143,7 +143,7 @@ TEST(Trajectory, RefusesBrokenFilesInOneSentence) {
 
 TEST(Trajectory, ReadsTheOfficialPoses) {
   ICPSCAPE_SKIP_WITHOUT_KITTI();
-  const Trajectory trajectory = ReadTrajectory(KittiSequence(KittiRoot(), "00").PosesPath());
+  const Trajectory trajectory = ReadTrajectory(KittiFiles(KittiRoot(), "00").Poses());
   EXPECT_EQ(trajectory.T_world_body.size(), 4541U);
 }
 

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <random>
 
+#include "src/io/sequences.h"
 #include "src/landscape/path.h"
 #include "tests/support/real_scans.h"
 
@@ -118,9 +119,9 @@ TEST(BicyclePath, HasTheLeadOfKittisCar) {
   ICPSCAPE_SKIP_WITHOUT_KITTI();
   // Over half a second the axle's chord lies along psi / 2, so the sensor's sideways motion across
   // it is 2 l sin(psi / 2): a regression over the whole drive gives l.
-  const KittiSequence sequence(KittiRoot(), "07");
-  const SE3d Tr = ReadKittiCalibration(sequence.CalibrationPath());
-  const std::vector<SE3d> poses = ReadKittiPoses(sequence.PosesPath());
+  const ScanSequence sequence = OpenKittiSequence(KittiRoot(), "07");
+  const SE3d Tr = *sequence.T_camera_lidar;
+  const std::vector<SE3d>& poses = sequence.T_world_camera;
   double sum_xy = 0, sum_xx = 0;
   for (std::size_t i = 0; i + 5 < poses.size(); i += 5) {
     const SE3d D = Tr.Inverse() * poses[i].Inverse() * poses[i + 5] * Tr;
@@ -134,7 +135,7 @@ TEST(BicyclePath, HasTheLeadOfKittisCar) {
 
 TEST(BicyclePath, BendsByTheSagittaOfARealTurn) {
   ICPSCAPE_SKIP_WITHOUT_KITTI();
-  const SE3d T_1 = KittiSequence(KittiRoot(), "00").RelativeMotion(94, 95);
+  const SE3d T_1 = *OpenKittiSequence(KittiRoot(), "00").Motion(94, 95);
   const Path bicycle(SE3d(), T_1, PathKind::kBicycle), geodesic(SE3d(), T_1, PathKind::kGeodesic);
   const Path lerp(SE3d(), T_1, PathKind::kLerpSlerp);
   // 0.475 m and 1.24 degrees: the arc's sagitta s psi / 8 is 1.3 mm, and eight times that at u = 2.

@@ -6,8 +6,12 @@
 #include <cmath>
 #include <random>
 
+#include "tests/support/named.h"
+
 namespace icpscape {
 namespace {
+
+using testing_support::Named;
 
 constexpr double kLength_m = 10;
 
@@ -16,10 +20,10 @@ SE3d Pose(double roll, double pitch, double yaw, double x, double y, double z) {
 }
 SE3d Shift(double x, double y, double z) { return SE3d(Mat3::Identity(), Vec3(x, y, z)); }
 
-class Projections : public testing::TestWithParam<PathKind> {
+class Projections : public testing::TestWithParam<Named<PathKind>> {
  protected:
   // A right turn, as a car drives it.
-  const Path path_{SE3d(), Pose(0.002, -0.003, -0.05, 0.9, -0.03, 0.01), GetParam()};
+  const Path path_{SE3d(), Pose(0.002, -0.003, -0.05, 0.9, -0.03, 0.01), GetParam().value};
 };
 
 TEST_P(Projections, OfPosesOnThePathAreExact) {
@@ -67,8 +71,10 @@ TEST_P(Projections, AgreeWithBruteForce) {
 }
 
 INSTANTIATE_TEST_SUITE_P(PathKinds, Projections,
-                         testing::Values(PathKind::kLerpSlerp, PathKind::kGeodesic,
-                                         PathKind::kBicycle));
+                         testing::Values(Named<PathKind>{"lerp_slerp", PathKind::kLerpSlerp},
+                                         Named<PathKind>{"geodesic", PathKind::kGeodesic},
+                                         Named<PathKind>{"bicycle", PathKind::kBicycle}),
+                         testing::PrintToStringParamName());
 
 // 2 m straight ahead. To the side is off the path, ahead is along it.
 TEST(Projection, OfDisplacedPosesByHand) {
@@ -91,6 +97,14 @@ TEST(Projection, WeighsRotationsByTheLength) {
   EXPECT_NEAR(ProjectOntoPath(path, T, -1, 2, 10).u, 0.5, 1e-7);
   EXPECT_NEAR(ProjectOntoPath(path, T, -1, 2, 0).u, 1, 1e-7);
   EXPECT_NEAR(ProjectOntoPath(path, T, -1, 2, 20).u, 0.2, 1e-7);  // (1 - u)^2 + 4 u^2.
+}
+
+// A turn on the spot, of which only the place counts: every pose of the path is as near.
+TEST(Projection, TakesTheSmallestUAmongEquals) {
+  const Path path(SE3d(), Pose(0, 0, 0.1, 0, 0, 0), PathKind::kLerpSlerp);
+  const PathProjection p = ProjectOntoPath(path, Shift(0, 2, 0), -1, 2, 0);
+  EXPECT_EQ(p.u, -1);
+  EXPECT_EQ(p.off_path_m, 2);
 }
 
 }  // namespace

@@ -8,6 +8,7 @@
 #include <random>
 
 #include "src/common/error.h"
+#include "src/io/sequences.h"
 #include "src/matching/closest_point_matcher.h"
 #include "tests/support/real_scans.h"
 
@@ -63,7 +64,9 @@ TEST(ReciprocalRejector, KeepsPairsThatLeadBack) {
   matches.target_index = {0, 0, 1};
   RejectNotReciprocal(searchable, target, SE3d(), 0.91, 1, &matches);
   EXPECT_THAT(matches.target_index, ElementsAre(0, 0, 1));
-  EXPECT_THROW(RejectNotReciprocal(searchable, target, SE3d(), -1, 1, &matches), UsageError);
+  for (const double epsilon : {-1.0, std::nan(""), HUGE_VAL}) {
+    EXPECT_THROW(RejectNotReciprocal(searchable, target, SE3d(), epsilon, 1, &matches), UsageError);
+  }
 }
 
 TEST(ReciprocalRejector, TakesCopiesOfAPointForOne) {
@@ -71,6 +74,14 @@ TEST(ReciprocalRejector, TakesCopiesOfAPointForOne) {
   Matches matches{{0, 0, 0}};
   RejectNotReciprocal(source, target, SE3d(), 0, 1, &matches);
   EXPECT_THAT(matches.target_index, ElementsAre(0, 0, -1));
+}
+
+// Farther than a float can say from everything: nothing leads back.
+TEST(ReciprocalRejector, RejectsWhatIsTooFarToBeNearAnything) {
+  const PointCloud source = Row({1, 2}), target = Row({1, 1e30});
+  Matches matches{{0, 1}};
+  RejectNotReciprocal(source, target, SE3d(), 1e6, 1, &matches);
+  EXPECT_THAT(matches.target_index, ElementsAre(0, -1));
 }
 
 TEST(ReciprocalRejector, WorksAtThePose) {
@@ -123,6 +134,9 @@ TEST_F(Distances, AreGated) {
   RejectDistant(source, target, SE3d(), 0.35, &matches);
   EXPECT_THAT(matches.target_index, ElementsAre(0, 1, 2, -1, -1, -1));
   EXPECT_THROW(RejectDistant(source, target, SE3d(), 0, &matches), UsageError);
+  matches = {{-1, -1, -1, -1, 4, -1}};
+  RejectDistant(source, target, SE3d(), 5, &matches);  // Exactly as far is not farther.
+  EXPECT_EQ(matches.Count(), 1U);
 }
 
 TEST_F(Distances, AreGatedAtThePose) {
@@ -146,7 +160,9 @@ TEST_F(Distances, AreTrimmed) {
   EXPECT_EQ(none.Count(), 0U);
   RejectTrimmed(source, target, SE3d(), 1, &matches);
   EXPECT_EQ(matches.Count(), 5U);
-  EXPECT_THROW(RejectTrimmed(source, target, SE3d(), 1.1, &matches), UsageError);
+  for (const double share : {-0.1, 1.1, std::nan("")}) {
+    EXPECT_THROW(RejectTrimmed(source, target, SE3d(), share, &matches), UsageError);
+  }
 }
 
 TEST(RejectTrimmed, GoesByIndexAmongEqualDistances) {
@@ -179,8 +195,16 @@ TEST(RejectByNormalAngle, TurnsTheSourcesNormals) {
   matches = all;
   RejectByNormalAngle(source, target, T, M_PI, &matches);  // A missing normal is still rejected.
   EXPECT_THAT(matches.target_index, ElementsAre(0, 1, 2, -1));
-  EXPECT_THROW(RejectByNormalAngle(source, target, T, 4, &matches), UsageError);
+  for (const double beyond : {-0.1, 3.2, std::nan("")}) {
+    EXPECT_THROW(RejectByNormalAngle(source, target, T, beyond, &matches), UsageError);
+  }
   EXPECT_THROW(RejectByNormalAngle(source, Row({1, 2, 3, 4}), T, 1, &matches), InputError);
+  EXPECT_THROW(RejectByNormalAngle(Row({1, 2, 3, 4}), target, T, 1, &matches), InputError);
+  // A normal that is missing in the target alone.
+  target.nx[0] = target.ny[0] = target.nz[0] = 0;
+  matches = all;
+  RejectByNormalAngle(source, target, T, M_PI, &matches);
+  EXPECT_THAT(matches.target_index, ElementsAre(-1, 1, 2, -1));
 }
 
 TEST(RejectRegions, DropsTheWholeRegionThatMatchesBadly) {
@@ -191,12 +215,45 @@ TEST(RejectRegions, DropsTheWholeRegionThatMatchesBadly) {
   Matches matches{{0, 1, 2, 3, 4, 5, -1}};
   RejectRegions(source, target, SE3d(), {10, 2}, &matches);
   EXPECT_THAT(matches.target_index, ElementsAre(0, 1, 2, 3, -1, -1, -1));
+  // By default cubes of 10 m and twice the median: 0.31 m is dropped beside 0.1, 0.15 and 0.15 m,
+  // but not where it shares the first cube with the 0.1 m.
+  for (const auto& [x, kept] : {std::pair(11.0, false), std::pair(9.5, true)}) {
+    const PointCloud pairs = Row({1, x, 21, 31}), off = Row({1.1, x + 0.31, 21.15, 31.15});
+    Matches three{{0, 1, 2, 3}};
+    RejectRegions(pairs, off, SE3d(), {}, &three);
+    EXPECT_EQ(three.target_index[1], kept ? 1 : -1) << x;
+  }
   RegionOptions options;
-  options.region_size_m = 0;
-  EXPECT_THROW(RejectRegions(source, target, SE3d(), options, &matches), UsageError);
+  for (const double size : {0.0, -10.0, HUGE_VAL, std::nan("")}) {
+    options.region_size_m = size;
+    EXPECT_THROW(RejectRegions(source, target, SE3d(), options, &matches), UsageError);
+  }
   options = {};
   options.median_factor = 0;
   EXPECT_THROW(RejectRegions(source, target, SE3d(), options, &matches), UsageError);
+}
+
+// Good pairs at 1 m and a bad one on the other side of a cube's wall, along each axis in turn.
+TEST(RejectRegions, AreCubesFromTheOriginAlongEveryAxis) {
+  for (int axis = 0; axis < 3; ++axis) {
+    for (const double bad : {-1.0, 7.0}) {
+      std::vector<Vec3> p = {{1, 1, 1}, {2, 1, 1}, {1, 101, 1}, {101, 1, 1}}, q = p;
+      p.emplace_back(1, 1, 1);
+      p.back()[axis] = bad;
+      q.push_back(p.back() + Vec3(0, 0, 0.5));
+      for (std::size_t i = 0; i < 4; ++i) {
+        q[i].z() += 0.1;
+      }
+      Matches matches{{0, 1, 2, 3, 4}};
+      RejectRegions(Cloud(p), Cloud(q), SE3d(), {6, 3}, &matches);
+      EXPECT_THAT(matches.target_index, ElementsAre(0, 1, 2, 3, -1)) << axis << " " << bad;
+      matches = {{0, 1, 2, 3, 4}};
+      // Five times the median, or in a cube with two good pairs: a mean of 0.23 m.
+      const RegionOptions lenient = bad < 0 ? RegionOptions{6, 5.5} : RegionOptions{8, 3};
+      RejectRegions(Cloud(p), Cloud(q), SE3d(), lenient, &matches);
+      EXPECT_EQ(matches.Count(), 5U) << axis << " " << bad;
+    }
+  }
 }
 
 TEST(Rejection, LeavesNoMatchesAsTheyAre) {
@@ -214,7 +271,7 @@ TEST(Rejection, LeavesNoMatchesAsTheyAre) {
 TEST(ReciprocalRejector, KeepsOneSourcePointPerTargetPointOnARealPair) {
   ICPSCAPE_SKIP_WITHOUT_KITTI();
   const PointCloud source = KittiScan("00", 15), target = KittiScan("00", 14);
-  const SE3d T = KittiSequence(KittiRoot(), "00").RelativeMotion(14, 15);
+  const SE3d T = *OpenKittiSequence(KittiRoot(), "00").Motion(14, 15);
   Matches all;
   ClosestPointMatcher(source, target).Match(T, 2, &all);
   Matches strict = all, relaxed = all;

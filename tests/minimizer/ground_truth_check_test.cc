@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include "src/cloud/normals.h"
+#include "src/io/sequences.h"
 #include "tests/support/real_scans.h"
 
 namespace icpscape {
@@ -11,15 +12,11 @@ namespace {
 
 TEST(GroundTruthCheck, TellsGoodTruthFromBad) {
   ICPSCAPE_SKIP_WITHOUT_KITTI();
-  const std::filesystem::path root = KittiRoot();
-  const KittiSequence sequence(root, "00");
+  const ScanSequence sequence = OpenKittiSequence(KittiRoot(), "00");
   const auto check = [&](int frame) {
-    DroppedPoints dropped;
-    const PointCloud source = ReadVelodyne(sequence.ScanPath(frame), &dropped);
-    PointCloud target = ReadVelodyne(sequence.ScanPath(frame - 1), &dropped);
-    EstimateNormals({}, 2, &target);
-    return CheckGroundTruth(source, target, sequence.RelativeMotion(frame - 1, frame), 2)
-        .translation_m;
+    ScanPair pair = sequence.Pair(frame, frame - 1);
+    EstimateNormals({}, 2, &pair.target);
+    return CheckGroundTruth(pair.source, pair.target, *pair.T_ground_truth, 2).translation_m;
   };
   EXPECT_LT(check(95), 0.02);
   EXPECT_GT(check(1), 0.1);

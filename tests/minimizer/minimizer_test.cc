@@ -10,9 +10,11 @@
 #include "residuals/registry.h"
 #include "src/cloud/normals.h"
 #include "src/io/kitti.h"
+#include "src/io/sequences.h"
 #include "src/matching/closest_point_matcher.h"
 #include "src/objective/loss.h"
 #include "tests/support/matchers.h"
+#include "tests/support/named.h"
 #include "tests/support/real_scans.h"
 #include "tests/support/scenes.h"
 
@@ -29,11 +31,11 @@ const testing_support::MovedRoom& Room() {
 double DistanceM(const SE3d& a, const SE3d& b) { return (a.Inverse() * b).t().norm(); }
 double AngleRad(const SE3d& a, const SE3d& b) { return (a.Inverse() * b).LogRotation().norm(); }
 
-class BothModes : public testing::TestWithParam<Reassociation> {
+class BothModes : public testing::TestWithParam<testing_support::Named<Reassociation>> {
  protected:
   static MinimizerOptions Options() {
     MinimizerOptions options;
-    options.reassociation = GetParam();
+    options.reassociation = GetParam().value;
     options.threads = 2;
     return options;
   }
@@ -133,7 +135,7 @@ TEST_P(BothModes, MovesInTheFreeDirectionsAlone) {
     EXPECT_LT((summary.T_target_source().t() - kMotion.t()).head<2>().norm(), 0.03) << loss;
   };
   settles_in_the_plane("none");
-  if (GetParam() == Reassociation::kEveryStep) {
+  if (GetParam().value == Reassociation::kEveryStep) {
     settles_in_the_plane("tolerant");  // One residual block per pair: the same manifold.
   }
 }
@@ -273,13 +275,12 @@ TEST_P(BothModes, OnePlaneMovesOnlyWhereItIsSeen) {
   EXPECT_LT(summary.final_cost(), 1e-8);
 }
 
-INSTANTIATE_TEST_SUITE_P(Minimizer, BothModes,
-                         testing::Values(Reassociation::kEveryStep,
-                                         Reassociation::kEveryEvaluation),
-                         [](const auto& test) {
-                           return test.param == Reassociation::kEveryStep ? "EveryStep"
-                                                                          : "EveryEvaluation";
-                         });
+INSTANTIATE_TEST_SUITE_P(
+    Minimizer, BothModes,
+    testing::Values(testing_support::Named<Reassociation>{"EveryStep", Reassociation::kEveryStep},
+                    testing_support::Named<Reassociation>{"EveryEvaluation",
+                                                          Reassociation::kEveryEvaluation}),
+    testing::PrintToStringParamName());
 
 // With a gate n changes from pose to pose. Whatever the modes make of that, a step that is short
 // only because longer ones were rejected must not be called convergence.
@@ -357,15 +358,11 @@ TEST(Minimizer, IsBitIdenticalForAnyNumberOfThreads) {
 
 TEST(Minimizer, RegistersTheRealTurnFromTheIdentity) {
   ICPSCAPE_SKIP_WITHOUT_KITTI();
-  const std::filesystem::path root = KittiRoot();
-  const KittiSequence sequence(root, "00");
-  DroppedPoints dropped;
-  PointCloud source = ReadVelodyne(sequence.ScanPath(95), &dropped);
-  PointCloud target = ReadVelodyne(sequence.ScanPath(94), &dropped);
-  EstimateNormals({}, 2, &source);
-  EstimateNormals({}, 2, &target);
-  const SE3d truth = sequence.RelativeMotion(94, 95);
-  const ClosestPointMatcher matcher(source, target);
+  ScanPair pair = OpenKittiSequence(KittiRoot(), "00").Pair(95, 94);
+  EstimateNormals({}, 2, &pair.source);
+  EstimateNormals({}, 2, &pair.target);
+  const SE3d truth = *pair.T_ground_truth;
+  const ClosestPointMatcher matcher(pair.source, pair.target);
   for (const Reassociation mode : {Reassociation::kEveryStep, Reassociation::kEveryEvaluation}) {
     for (const char* metric : {"point_to_plane", "symmetric"}) {
       const Objective objective(metric, matcher);

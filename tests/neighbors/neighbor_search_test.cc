@@ -5,7 +5,6 @@
 
 #include <algorithm>
 #include <limits>
-#include <nanoflann.hpp>
 #include <random>
 #include <thread>
 
@@ -55,6 +54,9 @@ std::vector<Neighbor> First(const std::vector<Neighbor>& all, std::size_t k) {
 Eigen::Vector3f PointOf(const PointCloud& cloud, std::size_t i) {
   return {cloud.x[i], cloud.y[i], cloud.z[i]};
 }
+
+// What only saves time changes no result, so that no test can miss it: the axis that a node splits,
+// the nearer child first, a first guess, lanes left out early, k cut down to the points there are.
 
 // Single queries, batches and moments, against the definition.
 void ExpectEqualsBruteForce(const PointCloud& cloud, const PointCloud& queries) {
@@ -217,6 +219,7 @@ TEST_P(NeighborSearchAt, WhatIsNotFiniteHasNoNeighborsAndIsNone) {
   for (std::size_t i = 0; i < cloud.size(); i += 3) {
     cloud.x[i] = i % 2 == 0 ? kNaN : kInfinity;
     cloud.z[i + 1] = i % 2 == 0 ? -kInfinity : cloud.z[i + 1];
+    cloud.y[i + 2] = i % 4 == 0 ? kNaN : cloud.y[i + 2];
   }
   PointCloud queries = Uniform(21, 6);
   for (std::size_t i = 0; i < queries.size(); i += 2) {
@@ -225,7 +228,7 @@ TEST_P(NeighborSearchAt, WhatIsNotFiniteHasNoNeighborsAndIsNone) {
   // The brute force's distances are NaN or infinite there.
   ExpectEqualsBruteForce(cloud, queries);
   ExpectMomentsEqualBruteForce(cloud, queries);
-  EXPECT_EQ(NeighborSearch(cloud.View()).Order().size(), 150U);
+  EXPECT_EQ(NeighborSearch(cloud.View()).Order().size(), 125U);
 }
 
 // Too far for the square of a float, and as near as floats can be.
@@ -296,63 +299,15 @@ TEST_P(NeighborSearchAt, EqualsBruteForceOnARealScan) {
   ICPSCAPE_SKIP_WITHOUT_KITTI();
   const std::filesystem::path root = KittiRoot();
   DroppedPoints dropped;
-  const KittiSequence sequence(root, "00");
-  const PointCloud target = ReadVelodyne(sequence.ScanPath(94), &dropped);
-  const PointCloud source = ReadVelodyne(sequence.ScanPath(95), &dropped);
+  const KittiFiles sequence(root, "00");
+  const PointCloud target = ReadVelodyne(sequence.Scan(94), &dropped);
+  const PointCloud source = ReadVelodyne(sequence.Scan(95), &dropped);
   PointCloud queries;
   for (std::size_t i = 0; i < source.size(); i += source.size() / 40) {
     testing_support::AddPoint(source.Point(i), &queries);
   }
   ExpectEqualsBruteForce(target, queries);
   ExpectMomentsEqualBruteForce(target, queries);
-}
-
-// A peer's tree on whole scans. It does not promise who wins a tie, so distances are compared.
-struct NanoflannCloud {
-  const PointCloud& cloud;
-  std::size_t kdtree_get_point_count() const { return cloud.size(); }
-  float kdtree_get_pt(std::size_t i, std::size_t axis) const {
-    return axis == 0 ? cloud.x[i] : axis == 1 ? cloud.y[i] : cloud.z[i];
-  }
-  template <class Box>
-  bool kdtree_get_bbox(Box& /*box*/) const {
-    return false;
-  }
-};
-
-void ExpectEqualsNanoflann(const PointCloud& target, const PointCloud& source) {
-  using Tree =
-      nanoflann::KDTreeSingleIndexAdaptor<nanoflann::L2_Simple_Adaptor<float, NanoflannCloud>,
-                                          NanoflannCloud, 3, int>;
-  const NanoflannCloud adaptor{target};
-  Tree tree(3, adaptor, nanoflann::KDTreeSingleIndexAdaptorParams(10));
-  const NeighborSearch search(target.View());
-  std::vector<Neighbor> ours;
-  search.KNearest(source.View(), 5, &ours);
-  for (std::size_t i = 0; i < source.size(); ++i) {
-    int index[5];
-    float squared_distance[5];
-    nanoflann::KNNResultSet<float, int> result(5);
-    result.init(index, squared_distance);
-    tree.findNeighbors(result, PointOf(source, i).data(), nanoflann::SearchParams());
-    for (std::size_t n = 0; n < 5; ++n) {
-      ASSERT_EQ(ours[5 * i + n].squared_distance, squared_distance[n]) << i;
-    }
-  }
-}
-
-TEST_P(NeighborSearchAt, EqualsNanoflannOnAWholeRealPair) {
-  ICPSCAPE_SKIP_WITHOUT_KITTI();
-  const KittiSequence sequence(KittiRoot(), "07");
-  DroppedPoints dropped;
-  ExpectEqualsNanoflann(ReadVelodyne(sequence.ScanPath(0), &dropped),
-                        ReadVelodyne(sequence.ScanPath(4), &dropped));
-}
-
-TEST_P(NeighborSearchAt, EqualsNanoflannOnAMovedRoom) {
-  const SE3d motion = SE3d::Exp((Vec6() << 0.01, 0, 0.05, 0.3, 0.1, 0).finished());
-  ExpectEqualsNanoflann(testing_support::Room(20000, 1, SE3d(), 0.01),
-                        testing_support::Room(20000, 2, motion, 0.01));
 }
 
 }  // namespace

@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include <Eigen/Eigenvalues>
+#include <algorithm>
 #include <limits>
 #include <random>
 
@@ -68,6 +69,82 @@ TEST_P(PrincipalAxesAt, AreThoseOfEigen) {
     EXPECT_NEAR(axes.Largest(i).norm(), 1, 1e-14);
     EXPECT_LE((m * axes.Smallest(i) - ours[0] * axes.Smallest(i)).norm(), 4e-15 * scale);
     EXPECT_LE((m * axes.Largest(i) - ours[2] * axes.Largest(i)).norm(), 4e-15 * scale);
+  }
+}
+
+// The sums about the mean, in two passes over the neighbours that a search lists.
+TEST_P(PrincipalAxesAt, ProductsAreCenteredOnTheMean) {
+  const PointCloud cloud = testing_support::Room(500, 1, SE3d(), 0.01);
+  const NeighborSearch search(cloud.View());
+  Neighborhoods found;
+  search.KNearest(cloud.View(), 7, &found);
+  found.CenterProducts();
+  for (std::size_t i = 0; i < cloud.size(); i += 10) {
+    std::vector<Neighbor> neighbors;
+    search.KNearest({cloud.x[i], cloud.y[i], cloud.z[i]}, 7, &neighbors);
+    const auto offset = [&](const Neighbor& n) -> Vec3 {
+      return cloud.Point(static_cast<std::size_t>(n.index)) - cloud.Point(i);
+    };
+    Vec3 mean = Vec3::Zero();
+    for (const Neighbor& n : neighbors) {
+      mean += offset(n) / 7;
+    }
+    Mat3 scatter = Mat3::Zero();
+    for (const Neighbor& n : neighbors) {
+      scatter += (offset(n) - mean) * (offset(n) - mean).transpose();
+    }
+    EXPECT_LE((found.Mean(i) - mean).norm(), 1e-6 * (1 + mean.norm()));
+    EXPECT_LE((found.Products(i) - scatter).norm(), 1e-6 * (1 + scatter.norm()));
+  }
+}
+
+// Up to 31 neighbours within less than 1 m are summed to the last bit of 2^-24 m: nothing rounds.
+TEST_P(PrincipalAxesAt, MomentsAreExactTo24Bits) {
+  for (const int size : {4, 20, 31}) {
+    PointCloud cloud, query;
+    testing_support::AddPoint({0, 0, 0}, &query);
+    double sum = 0, products = 0;
+    for (int i = 0; i < size; ++i) {
+      const double x = 0.75 + (2 * i + 1) * 0x1p-24, y = 0.5 - i * 0x1p-24;
+      testing_support::AddPoint({x, y, 0}, &cloud);
+      ASSERT_EQ(cloud.Point(static_cast<std::size_t>(i)), Vec3(x, y, 0));
+      sum += x;
+      products += x * y;
+    }
+    Neighborhoods found;
+    NeighborSearch(cloud.View()).KNearest(query.View(), size, &found);
+    EXPECT_EQ(found.count[0], size);
+    EXPECT_EQ(found.x[0], sum);
+    EXPECT_EQ(found.xy[0], products);
+  }
+}
+
+// However the neighbours are numbered, and with it in which order they are found.
+TEST_P(PrincipalAxesAt, MomentsDoNotDependOnTheOrder) {
+  std::mt19937 engine(3);
+  std::uniform_real_distribution<double> unit(0, 1);
+  PointCloud query;
+  testing_support::AddPoint({0, 0, 0}, &query);
+  for (const int size : {31, 127, 500}) {
+    for (const double radius : {0.99, 1.4, 2.7}) {
+      std::vector<Vec3> points;
+      for (int i = 0; i < size; ++i) {  // All on one side and nearly as far: the largest sums.
+        points.emplace_back(radius * (1 - 1e-3 * unit(engine)), 0.01 * unit(engine), 0);
+      }
+      Neighborhoods first, found;
+      for (int trial = 0; trial < 20; ++trial) {
+        PointCloud cloud;
+        for (const Vec3& p : points) {
+          testing_support::AddPoint(p, &cloud);
+        }
+        NeighborSearch(cloud.View()).KNearest(query.View(), size, &found);
+        first = trial == 0 ? found : first;
+        EXPECT_EQ(found.x[0], first.x[0]) << size << " within " << radius;
+        EXPECT_EQ(found.xx[0], first.xx[0]) << size << " within " << radius;
+        EXPECT_EQ(found.xy[0], first.xy[0]) << size << " within " << radius;
+        std::shuffle(points.begin(), points.end(), engine);
+      }
+    }
   }
 }
 

@@ -10,10 +10,13 @@
 #include "src/minimizer/minimizer.h"
 #include "src/objective/loss.h"
 #include "src/objective/objective_set.h"
+#include "tests/support/prepared.h"
 #include "tests/support/scenes.h"
 
 namespace icpscape {
 namespace {
+
+using testing_support::AsPrepared;
 
 struct RoomPair {
   PointCloud source = testing_support::Room(3000, 1, SE3d(), 0.005);
@@ -34,7 +37,7 @@ TEST(JointObjective, IsTheWeightedSumAndWhatCeresSees) {
   const RoomPair room;
   ObjectiveSetOptions options;
   options.loss = MakeLoss("huber", 0.02);
-  const ObjectiveSet set(room.source, room.target, room.features,
+  const ObjectiveSet set(AsPrepared(room.source, room.target, room.features),
                          {"edge_to_line", "planar_to_plane", "point_to_plane"}, options);
   const auto& o = set.objectives();
   const JointObjective joint({{&o[0], 2}, {&o[1], 0.5}, {&o[2], 1}});
@@ -42,19 +45,43 @@ TEST(JointObjective, IsTheWeightedSumAndWhatCeresSees) {
   const SE3d T(Mat3::Identity(), Vec3(0.05, 0.02, 0));
   const MatchesByMatcher matches = joint.Match(T, 1);
   const Evaluation sum = joint.Evaluate(T, matches, 1);
-  double cost = 0;
-  Vec6 gradient = Vec6::Zero();
+  double cost = 0, squared = 0, epsilon = 0;
+  Vec6 gradient = Vec6::Zero(), epsilon_gradient = Vec6::Zero();
+  Mat6 hessian = Mat6::Zero();
   long n = 0;
   const double weights[] = {2, 0.5, 1};
   for (std::size_t k = 0; k < 3; ++k) {
     const Evaluation part = o[k].Evaluate(T, 1);
     cost += weights[k] * part.sums.cost;
     gradient += weights[k] * part.sums.gradient;
+    hessian += weights[k] * part.sums.Hessian();
+    squared += weights[k] * part.sum_squared;
+    epsilon += weights[k] * part.epsilon;
+    epsilon_gradient += weights[k] * part.epsilon_gradient;
     n += part.n();
   }
-  EXPECT_NEAR(sum.sums.cost, cost, 1e-12 * cost);
-  EXPECT_LE((sum.sums.gradient - gradient).norm(), 1e-12 * gradient.norm());
-  EXPECT_EQ(sum.n(), n);
+  const auto expect_sum = [&](const Evaluation& evaluation) {
+    EXPECT_NEAR(evaluation.sums.cost, cost, 1e-12 * cost);
+    EXPECT_LE((evaluation.sums.gradient - gradient).norm(), 1e-12 * gradient.norm());
+    EXPECT_LE((evaluation.sums.Hessian() - hessian).norm(), 1e-12 * hessian.norm());
+    EXPECT_NEAR(evaluation.sum_squared, squared, 1e-12 * squared);
+    EXPECT_NEAR(evaluation.epsilon, epsilon, 1e-12 * epsilon);
+    EXPECT_LE((evaluation.epsilon_gradient - epsilon_gradient).norm(),
+              1e-12 * epsilon_gradient.norm());
+    EXPECT_EQ(evaluation.n(), n);
+    EXPECT_FALSE(evaluation.sums.upward_loss);
+  };
+  expect_sum(sum);
+  MatchesByMatcher kept;
+  expect_sum(joint.Evaluate(T, 2, &kept));
+  ASSERT_EQ(kept.size(), matches.size());
+  for (const auto& [matcher, found] : matches) {
+    EXPECT_EQ(kept.at(matcher).target_index, found.target_index);
+  }
+  // What was not asked for stays zero.
+  EXPECT_EQ(joint.Evaluate(T, matches, 1, Derivatives::kGradient).sums.gradient, sum.sums.gradient);
+  EXPECT_EQ(joint.Evaluate(T, matches, 1, Derivatives::kGradient).sums.hessian, Mat6::Zero());
+  EXPECT_EQ(joint.Evaluate(T, matches, 1, Derivatives::kNone).sums.gradient, Vec6::Zero());
 
   double x[7];
   T.ToParameters(x);
@@ -70,11 +97,27 @@ TEST(JointObjective, IsTheWeightedSumAndWhatCeresSees) {
   EXPECT_LE((Eigen::Map<const Vec6>(ceres_gradient.data()) - gradient).norm(), 1e-9);
 }
 
+// Whichever term it is, and whichever of its pairs.
+TEST(JointObjective, KnowsAnUpwardLossOfAnyTerm) {
+  const RoomPair room;
+  const ClosestPointMatcher matcher(room.source, room.target);
+  const Objective huber("point_to_plane", matcher, MakeLoss("huber", 0.1));
+  const Objective tolerant("point_to_point", matcher, MakeLoss("tolerant", 0.1));
+  const auto expect = [&](const JointObjective& joint, bool upward) {
+    EXPECT_EQ(joint.HasUpwardLoss(), upward) << joint.Name();
+    EXPECT_EQ(joint.Evaluate(SE3d(), 1).sums.upward_loss, upward) << joint.Name();
+  };
+  expect(JointObjective({{&huber, 0.5}, {&tolerant, 2}}), true);
+  expect(JointObjective({{&tolerant, 0.5}, {&huber, 2}}), true);
+  expect(JointObjective({{&huber, 0.5}, {&huber, 2}}), false);
+  expect(tolerant, true);
+}
+
 TEST(JointObjective, EdgesAndPlanesTogetherFindTheMotion) {
   const SE3d motion = SE3d::Exp((Vec6() << 0, 0, 0.01, 0.05, 0.03, 0).finished());
   RoomPair room;
   room.source = testing_support::Room(3000, 1, motion.Inverse(), 0.005);
-  const ObjectiveSet set(room.source, room.target, room.features,
+  const ObjectiveSet set(AsPrepared(room.source, room.target, room.features),
                          {"edge_to_line", "planar_to_plane"}, {});
   const JointObjective joint({{&set.objectives()[0], 0.1}, {&set.objectives()[1], 1}});
   const MinimizerSummary summary = Minimize(joint, SE3d(), {});
@@ -84,7 +127,8 @@ TEST(JointObjective, EdgesAndPlanesTogetherFindTheMotion) {
 
 TEST(JointObjective, RefusesWeightsThatAreNone) {
   const RoomPair room;
-  const ObjectiveSet set(room.source, room.target, room.features, {"point_to_point"}, {});
+  const ObjectiveSet set(AsPrepared(room.source, room.target, room.features), {"point_to_point"},
+                         {});
   for (const double weight : {0.0, -1.0, std::nan("")}) {
     EXPECT_THROW(JointObjective({{&set.objectives()[0], weight}}), UsageError);
   }
@@ -92,7 +136,7 @@ TEST(JointObjective, RefusesWeightsThatAreNone) {
 
 TEST(ObjectiveSet, KindsShareAMatcherAndTakeTheirFeatures) {
   const RoomPair room;
-  const ObjectiveSet set(room.source, room.target, room.features,
+  const ObjectiveSet set(AsPrepared(room.source, room.target, room.features),
                          {"point_to_point", "symmetric", "edge_to_line", "planar_to_patch",
                           "edge_to_line_distance", "planar_to_plane"},
                          {});
@@ -104,7 +148,7 @@ TEST(ObjectiveSet, KindsShareAMatcherAndTakeTheirFeatures) {
   EXPECT_EQ(o[3].matcher().source().size(), 2572U);
   Features none = room.features;
   none.edge.assign(none.edge.size(), 0);
-  EXPECT_THROW(ObjectiveSet(room.source, room.target, none, {"edge_to_line"}, {}),
+  EXPECT_THROW(ObjectiveSet(AsPrepared(room.source, room.target, none), {"edge_to_line"}, {}),
                ComputationError);
 }
 

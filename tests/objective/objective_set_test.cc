@@ -9,11 +9,13 @@
 #include "src/common/error.h"
 #include "src/objective/loss.h"
 #include "tests/support/message_of.h"
+#include "tests/support/prepared.h"
 #include "tests/support/scenes.h"
 
 namespace icpscape {
 namespace {
 
+using testing_support::AsPrepared;
 using testing_support::MessageOf;
 
 const SE3d kMotion = SE3d::Exp((Vec6() << 0.01, -0.005, 0.05, 0.3, 0.05, -0.02).finished());
@@ -41,7 +43,6 @@ ObjectiveSetOptions Lenient() {  // A random room has few edges as sharp as the 
   options.line.eigenvalue_ratio = options.patch.eigenvalue_ratio = 1.5;
   options.patch.max_smallest_eigenvalue_m2 = 1;
   options.loss = MakeLoss("huber", 0.1);
-  options.threads = 2;
   return options;
 }
 
@@ -71,12 +72,47 @@ TEST(ObjectiveSet, IsTheSameOverCloudsThatAreSearchableAlready) {
   const MetricClouds sources{SearchableCloud(room.source), SearchableCloud(edges),
                              SearchableCloud(planar)};
   const auto expect_same = [&](const std::vector<std::string>& metrics) {
-    ExpectSame(ObjectiveSet(room.source, room.target, features, metrics, Lenient()),
+    ExpectSame(ObjectiveSet(AsPrepared(room.source, room.target, features), metrics, Lenient()),
                ObjectiveSet(sources, {target, target, target}, metrics, Lenient()));
   };
   expect_same(all);
   for (const std::string& metric : all) {
     expect_same({metric});
+  }
+}
+
+// Every kind of metric takes its own options, and all the loss: with a gate that lets nothing
+// through, the metrics of that kind alone have no pairs.
+TEST(ObjectiveSet, GivesEachKindOfMetricItsOwnOptions) {
+  const testing_support::MovedRoom& room = TheScene().room;
+  const std::vector<std::string> metrics = {"point_to_point", "edge_to_line", "planar_to_patch"};
+  for (std::size_t gated = 0; gated < 3; ++gated) {
+    ObjectiveSetOptions options = Lenient();
+    const double gate = 1e-7;
+    (gated == 0   ? options.matching.max_distance_m
+     : gated == 1 ? options.line.max_neighbor_distance_m
+                  : options.patch.max_neighbor_distance_m) = gate;
+    options.line.triangle_leg_m = 0.7;
+    options.patch.triangle_leg_m = 0.3;
+    const ObjectiveSet set(AsPrepared(room.source, room.target, TheScene().features), metrics,
+                           options);
+    for (std::size_t m = 0; m < 3; ++m) {
+      const Objective& objective = set.objectives()[m];
+      EXPECT_EQ(objective.Evaluate(kMotion, 2).n() == 0, m == gated) << metrics[m];
+      EXPECT_EQ(objective.loss(), options.loss.get());
+    }
+    EXPECT_DOUBLE_EQ(set.objectives()[2].matcher().area_patch(), 0.09);
+  }
+}
+
+TEST(ObjectiveSet, KnowsWhichMetricsNeedFeatures) {
+  for (const char* metric :
+       {"edge_to_line", "edge_to_line_distance", "planar_to_patch", "planar_to_plane"}) {
+    EXPECT_TRUE(NeedsFeatures(metric)) << metric;
+  }
+  for (const char* metric : {"point_to_point", "point_to_plane", "symmetric", "symmetric_rotated",
+                             "symmetric_split", "two_plane"}) {
+    EXPECT_FALSE(NeedsFeatures(metric)) << metric;
   }
 }
 
@@ -95,7 +131,7 @@ TEST(ObjectiveSet, GivesEachKindOfMetricItsOwnClouds) {
   Features everything{std::vector<char>(room.source.size(), 1),
                       std::vector<char>(room.source.size(), 1)};
   const auto alone = [&](const PointCloud& target, const char* metric) {
-    return ObjectiveSet(room.source, target, everything, {metric}, Lenient())
+    return ObjectiveSet(AsPrepared(room.source, target, everything), {metric}, Lenient())
         .objectives()[0]
         .Evaluate(kMotion, 1)
         .sums.cost;

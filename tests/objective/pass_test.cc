@@ -124,6 +124,9 @@ TEST(Pass, TogetherIsAsEachAloneWhereOneNeedsLines) {
   const auto together = EvaluateAll({&points, &edges}, kPose, Derivatives::kHessian, 1);
   ExpectSameBits(together[0], points.Evaluate(kPose, 1));
   ExpectSameBits(together[1], edges.Evaluate(kPose, 1));
+  const auto reversed = EvaluateAll({&edges, &points}, kPose, Derivatives::kHessian, 1);
+  ExpectSameBits(reversed[0], edges.Evaluate(kPose, 1));
+  ExpectSameBits(reversed[1], points.Evaluate(kPose, 1));
 }
 
 TEST(Pass, LeavesOutPairsWithoutANormalOnEitherSide) {

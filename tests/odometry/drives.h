@@ -26,7 +26,7 @@ inline OdometryOptions Options(OdometryMode mode, const Metrics& metrics = kPlan
   OdometryOptions options;
   options.mode = mode;
   options.metrics = metrics;
-  options.preprocessing.voxel_m = metrics == kLoam ? 0 : 0.25;
+  options.preparation.voxel_m = metrics == kLoam ? 0 : 0.25;
   options.objective.loss = MakeLoss("huber", 0.1);
   options.adaptive_gate_m = 2;
   options.map_every = 2;

@@ -9,6 +9,7 @@
 #include "src/common/error.h"
 #include "tests/odometry/drives.h"
 #include "tests/support/message_of.h"
+#include "tests/support/named.h"
 #include "tests/support/scenes.h"
 
 namespace icpscape {
@@ -17,14 +18,20 @@ namespace {
 using namespace testing_support;  // NOLINT: the helpers of these tests, all of them.
 using testing::HasSubstr;
 
-class EveryMode : public testing::TestWithParam<OdometryMode> {};
-INSTANTIATE_TEST_SUITE_P(Odometry, EveryMode, testing::ValuesIn(kModes),
-                         [](const auto& mode) { return kNames[static_cast<int>(mode.param)]; });
+class EveryMode : public testing::TestWithParam<Named<OdometryMode>> {
+ protected:
+  static OdometryMode Mode() { return GetParam().value; }
+};
+INSTANTIATE_TEST_SUITE_P(
+    Odometry, EveryMode,
+    testing::Values(Named<OdometryMode>{"scan_to_scan", OdometryMode::kScanToScan},
+                    Named<OdometryMode>{"scan_to_map", OdometryMode::kScanToMap},
+                    Named<OdometryMode>{"two_stage", OdometryMode::kTwoStage}),
+    testing::PrintToStringParamName());
 
 TEST_P(EveryMode, FollowsTheTruth) {
   for (const Metrics& metrics : {kPlanes, kSymmetric, kLoam}) {
-    const std::vector<FrameResult> results =
-        RunAll(Options(GetParam(), metrics), TownDrive().scans);
+    const std::vector<FrameResult> results = RunAll(Options(Mode(), metrics), TownDrive().scans);
     const double limit_m = metrics == kLoam ? 0.08 : 0.05;  // Of 5.6 m.
     for (std::size_t i = 0; i < results.size(); ++i) {
       const SE3d& truth = TownDrive().T_world_lidar[i];
@@ -42,7 +49,7 @@ TEST_P(EveryMode, FollowsTheTruth) {
 
 TEST_P(EveryMode, IsTheSameForAnyNumberOfThreads) {
   for (const Metrics& metrics : {kPlanes, kLoam}) {
-    OdometryOptions options = Options(GetParam(), metrics);
+    OdometryOptions options = Options(Mode(), metrics);
     options.threads = 1;
     const auto one = Bits(RunAll(options, FirstScans(4)));
     for (const int threads : {2, 4}) {
@@ -55,7 +62,7 @@ TEST_P(EveryMode, IsTheSameForAnyNumberOfThreads) {
 TEST_P(EveryMode, GoesOnAfterAReplayAsIfItHadNotStopped) {
   for (const Metrics& metrics : {kPlanes, kLoam}) {
     const std::vector<PointCloud> scans = FirstScans(metrics == kLoam ? 4 : 6);
-    const OdometryOptions options = Options(GetParam(), metrics);
+    const OdometryOptions options = Options(Mode(), metrics);
     const auto whole = RunAll(options, scans);
     for (std::size_t stop = 1; stop < scans.size(); ++stop) {
       Odometry odometry(options);
@@ -82,7 +89,7 @@ TEST_P(EveryMode, PredictsWhereAScanCannotBeRegistered) {
   for (const PointCloud& bad : {nothing, far_away}) {
     std::vector<PointCloud> scans = TownDrive().scans;
     scans[4] = bad;
-    const std::vector<FrameResult> results = RunAll(Options(GetParam()), scans);
+    const std::vector<FrameResult> results = RunAll(Options(Mode()), scans);
     EXPECT_FALSE(results[4].registered);
     EXPECT_EQ(results[4].points, bad.size());
     EXPECT_EQ(results[4].motion.Matrix(), results[3].motion.Matrix());
@@ -90,7 +97,7 @@ TEST_P(EveryMode, PredictsWhereAScanCannotBeRegistered) {
               results[4].T_world_lidar.Matrix());
     EXPECT_EQ(results[5].gate_m, results[4].gate_m);  // A prediction is no evidence for itself.
     // Nothing can be registered to nothing either, but to the map it can.
-    EXPECT_EQ(results[5].registered, GetParam() == OdometryMode::kScanToMap);
+    EXPECT_EQ(results[5].registered, Mode() == OdometryMode::kScanToMap);
     for (const std::size_t i : {6U, 7U}) {
       EXPECT_TRUE(results[i].registered) << i;
       EXPECT_LT(DistanceM(results[i].T_world_lidar, TownDrive().T_world_lidar[i]), 0.1) << i;
@@ -101,7 +108,7 @@ TEST_P(EveryMode, PredictsWhereAScanCannotBeRegistered) {
 TEST_P(EveryMode, PredictsWhereAScanHasNoRings) {
   std::vector<PointCloud> scans = FirstScans(6);
   scans[2] = testing_support::Room(3000, 1);
-  const OdometryOptions options = Options(GetParam(), kLoam);
+  const OdometryOptions options = Options(Mode(), kLoam);
   const std::vector<FrameResult> results = RunAll(options, scans);
   EXPECT_FALSE(results[2].registered);
   EXPECT_EQ(results[2].points, 0U);
@@ -118,7 +125,7 @@ TEST_P(EveryMode, PredictsWhereAScanHasNoRings) {
 }
 
 TEST_P(EveryMode, PredictsWhereTheFiltersLeaveNothing) {
-  OdometryOptions options = Options(GetParam());
+  OdometryOptions options = Options(Mode());
   options.filters.ego_blind_spot_m = 1000;
   for (const FrameResult& result : RunAll(options, FirstScans(3))) {
     EXPECT_FALSE(result.registered);
@@ -128,10 +135,10 @@ TEST_P(EveryMode, PredictsWhereTheFiltersLeaveNothing) {
 }
 
 TEST_P(EveryMode, TakesFilters) {
-  OdometryOptions options = Options(GetParam());
+  OdometryOptions options = Options(Mode());
   options.filters.ego_blind_spot_m = 5;
   const auto filtered = RunAll(options, TownDrive().scans);
-  const auto whole = RunAll(Options(GetParam()), TownDrive().scans);
+  const auto whole = RunAll(Options(Mode()), TownDrive().scans);
   for (std::size_t i = 1; i < filtered.size(); ++i) {
     EXPECT_TRUE(filtered[i].registered) << i;
     EXPECT_LT(filtered[i].n, whole[i].n) << i;
@@ -152,30 +159,30 @@ TEST_P(EveryMode, TakesEveryMetricAndRejection) {
   OdometryOptions options;
   ForEachMetric([&](auto tag) {
     const std::string metric = decltype(tag)::Metric::kName;
-    options = Options(GetParam(), {metric});
-    options.preprocessing.voxel_m = NeedsFeatures(metric) ? 0 : 0.25;
+    options = Options(Mode(), {metric});
+    options.preparation.voxel_m = NeedsFeatures(metric) ? 0 : 0.25;
     options.minimizer.max_iterations = 5;
     expect_motion(options, metric);
   });
-  options = Options(GetParam(), {"point_to_point"});  // Normals that no metric needs.
+  options = Options(Mode(), {"point_to_point"});  // Normals that no metric needs.
   options.objective.matching.max_normal_angle_rad = 0.5;
   expect_motion(options, "normal angle");
-  options = Options(GetParam());
+  options = Options(Mode());
   options.objective.matching.reciprocal_epsilon_m = 0.1;
   expect_motion(options, "reciprocal");
   options.objective.matching.kept_fraction = 0.7;
   expect_motion(options, "trimmed");
-  options = Options(GetParam());
+  options = Options(Mode());
   options.objective.loss = MakeLoss("tolerant", 0.1);
   expect_motion(options, "tolerant");
-  options = Options(GetParam());
+  options = Options(Mode());
   options.adaptive_gate_m = 0;
   options.minimizer.reassociation = Reassociation::kEveryEvaluation;
   expect_motion(options, "every evaluation");
 }
 
 TEST_P(EveryMode, IsPreciseFarFromHome) {
-  const OdometryOptions options = Options(GetParam());
+  const OdometryOptions options = Options(Mode());
   const std::vector<PointCloud> scans = FirstScans(5);
   const auto home = RunAll(options, scans);
   Odometry odometry(options);

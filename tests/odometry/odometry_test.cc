@@ -8,6 +8,7 @@
 #include "src/common/error.h"
 #include "tests/odometry/drives.h"
 #include "tests/support/message_of.h"
+#include "tests/support/prepared.h"
 #include "tests/support/scenes.h"
 
 namespace icpscape {
@@ -40,19 +41,21 @@ void ExpectTheChainOfItsParts(const OdometryOptions& options) {
   const std::vector<FrameResult> results = RunAll(options, scans);
   const auto prepare = [&](std::size_t i) {
     return Prepare(scans[i], kSourceNormal | kTargetNormal | kTargetLine | kTargetPatch,
-                   options.preprocessing, 1);
+                   options.preparation, 1);
   };
   AdaptiveGate gate(options.adaptive_gate_m);
   SE3d predicted, pose;
   for (std::size_t i = 1; i < scans.size(); ++i) {
-    const auto source = prepare(i), target = prepare(i - 1);
-    const FilteredPair pair =
-        ApplyFilters(source->cloud, target->cloud, predicted, options.filters);
+    const PreparedScan source = prepare(i), target = prepare(i - 1);
+    const KeptPoints kept =
+        ApplyFilters(source.cloud(), target.cloud(), predicted, options.filters);
     ObjectiveSetOptions objective = options.objective;
     objective.matching.max_distance_m = gate.MaxDistance_m();
     objective.line.max_neighbor_distance_m = gate.MaxDistance_m();
     objective.patch.max_neighbor_distance_m = gate.MaxDistance_m();
-    const ObjectiveSet set(pair.source, pair.target, source->features.Select(pair.keep_source),
+    const ObjectiveSet set(testing_support::AsPrepared(source.cloud().Select(kept.source),
+                                                       target.cloud().Select(kept.target),
+                                                       source.features()->Select(kept.source)),
                            options.metrics, objective);
     std::vector<JointObjective::Term> terms;
     for (const Objective& term : set.objectives()) {
@@ -75,7 +78,7 @@ void ExpectTheChainOfItsParts(const OdometryOptions& options) {
 
 TEST(Odometry, IsTheChainOfItsParts) {
   OdometryOptions options = Options(OdometryMode::kScanToScan, {"point_to_plane", "edge_to_line"});
-  options.preprocessing.voxel_m = 0;
+  options.preparation.voxel_m = 0;
   ExpectTheChainOfItsParts(options);
   options.metrics = {"edge_to_line", "planar_to_plane"};
   options.adaptive_gate_m = 0.3;  // So tight that fits feel it.
@@ -130,7 +133,7 @@ TEST(Odometry, KeepsTheMapThatItIsToldTo) {
 // left out instead of ending the drive.
 TEST(Odometry, MapsNothingBeyondItsRadius) {
   OdometryOptions options = Options(OdometryMode::kScanToMap);
-  options.preprocessing.voxel_m = 0;
+  options.preparation.voxel_m = 0;
   options.map = {1e-3, 20, 0};
   std::vector<PointCloud> scans = FirstScans(2);
   std::size_t within = 0;
@@ -181,7 +184,7 @@ TEST(Odometry, RegistersToTheMapAloneWhereItMust) {
 // Rings of eight points have no edges, but are points among which others find lines.
 TEST(Odometry, RegistersToTheScanAloneWhereItMust) {
   OdometryOptions options = Options(OdometryMode::kTwoStage, {"edge_to_line"});
-  options.preprocessing.voxel_m = 0;
+  options.preparation.voxel_m = 0;
   options.map_every = 1;
   options.map.scans = 1;
   std::vector<PointCloud> scans = FirstScans(4);

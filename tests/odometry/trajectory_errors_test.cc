@@ -221,7 +221,7 @@ TEST(KittiSegmentErrors, AgreesWithTheSecondMethodOnKitti) {
   ICPSCAPE_SKIP_WITHOUT_KITTI();
   for (const char* sequence : {"00", "07"}) {
     ExpectAgreesWithTheSecondMethod(
-        ReadTrajectory(KittiSequence(KittiRoot(), sequence).PosesPath()).T_world_body);
+        ReadTrajectory(KittiFiles(KittiRoot(), sequence).Poses()).T_world_body);
   }
 }
 
@@ -259,8 +259,8 @@ TEST(AbsoluteErrors, AlignmentsByHand) {
   for (const Alignment alignment : {Alignment::kFirstPose, Alignment::kRigid}) {
     const SE3d T = *AlignmentOf(pair, alignment);
     EXPECT_LE((T.Matrix() - moved.Inverse().Matrix()).norm(), 1e-12);
-    EXPECT_LE(StatisticsOf(AbsoluteErrors(pair, T).translation_m).max, 1e-12);
-    EXPECT_LE(StatisticsOf(AbsoluteErrors(pair, T).rotation_rad).max, 1e-12);
+    EXPECT_LE(Summarize(AbsoluteErrors(pair, T).translation_m).max, 1e-12);
+    EXPECT_LE(Summarize(AbsoluteErrors(pair, T).rotation_rad).max, 1e-12);
   }
 }
 
@@ -270,7 +270,7 @@ TEST(AbsoluteErrors, RigidAlignmentIsTheBest) {
   const TrajectoryPair pair = {truth, Perturbed(truth, 3), {}};
   const SE3d T = *AlignmentOf(pair, Alignment::kRigid);
   const auto rmse = [&](const SE3d& T_truth_estimate) {
-    return StatisticsOf(AbsoluteErrors(pair, T_truth_estimate).translation_m).rmse;
+    return Summarize(AbsoluteErrors(pair, T_truth_estimate).translation_m).rmse;
   };
   EXPECT_LT(rmse(T), rmse(*AlignmentOf(pair, Alignment::kFirstPose)));
   for (int k = 0; k < 6; ++k) {
@@ -313,12 +313,12 @@ TEST(RelativeErrors, ByHand) {
 }
 
 TEST(Statistics, ByHand) {
-  const Statistics odd = StatisticsOf({3, 1, 2});
+  const Statistics odd = Summarize({3, 1, 2});
   EXPECT_DOUBLE_EQ(odd.rmse, std::sqrt(14.0 / 3));
   EXPECT_DOUBLE_EQ(odd.mean, 2);
   EXPECT_DOUBLE_EQ(odd.median, 2);
   EXPECT_DOUBLE_EQ(odd.max, 3);
-  EXPECT_DOUBLE_EQ(StatisticsOf({4, 1, 2, 10}).median, 3);
+  EXPECT_DOUBLE_EQ(Summarize({4, 1, 2, 10}).median, 3);
 }
 
 Trajectory AtTimes(const std::vector<double>& times_s) {

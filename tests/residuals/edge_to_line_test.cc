@@ -8,18 +8,15 @@ namespace {
 
 // Along the line, and about the point.
 std::vector<Vec6> LineNullSpace(const EdgeToLine& line, const SE3d& T) {
-  Vec6 slide;
-  slide << Vec3::Zero(), T.R().transpose() * line.d_line;
-  return {slide, RotationAbout(line.p_source, Vec3::UnitX()),
-          RotationAbout(line.p_source, Vec3::UnitY()), RotationAbout(line.p_source, Vec3::UnitZ())};
+  std::vector<Vec6> twists = RotationsAbout(line.p_source);
+  twists.push_back(Slide(T.R().transpose() * line.d_line));
+  return twists;
 }
 
 }  // namespace
 
 template <>
-struct ResidualProperties<EdgeToLine> {
-  static constexpr bool kInvariantToTargetFrame = true;
-  static bool IsSmoothAt(const EdgeToLine& /*metric*/, const SE3d& /*T*/) { return true; }
+struct ResidualProperties<EdgeToLine> : InvariantAndSmooth {
   static std::vector<Vec6> NullSpace(const EdgeToLine& metric, const SE3d& T) {
     return LineNullSpace(metric, T);
   }
@@ -33,8 +30,12 @@ struct ResidualProperties<EdgeToLineDistance> {
   static bool IsSmoothAt(const EdgeToLineDistance& metric, const SE3d& T) {
     return metric.Residual(T)[0] > 0.2;
   }
+  // The distance is blind to the way round the line as well.
   static std::vector<Vec6> NullSpace(const EdgeToLineDistance& metric, const SE3d& T) {
-    return LineNullSpace(metric.line, T);
+    std::vector<Vec6> twists = LineNullSpace(metric.line, T);
+    const Vec3 e = T * metric.line.p_source - metric.line.a_line;
+    twists.push_back(Slide(T.R().transpose() * metric.line.d_line.cross(e)));
+    return twists;
   }
 };
 
@@ -77,6 +78,13 @@ TEST(EdgeToLine, TheScalarIsGuardedOnTheLine) {
   c.d_line = Vec3::UnitX();
   EXPECT_EQ(EdgeToLineDistance::From(c).Residual(SE3d())[0], 0);
   EXPECT_EQ(EdgeToLineDistance::From(c).Jacobian(SE3d()).norm(), 0);
+  // And so is its automatic derivative, which a plain root would make NaN.
+  using Jet = ceres::Jet<double, 6>;
+  Vec<Jet, 6> xi;
+  for (int i = 0; i < 6; ++i) {
+    xi[i] = Jet(0.0, i);
+  }
+  EXPECT_EQ(EdgeToLineDistance::From(c).Residual(SE3<Jet>::Exp(xi))[0].v.norm(), 0);
 }
 
 }  // namespace icpscape

@@ -7,6 +7,21 @@
 
 namespace icpscape {
 
+template <>
+struct ResidualProperties<PlanarToPatch> : InvariantAndSmooth {
+  static std::vector<Vec6> NullSpace(const PlanarToPatch& metric, const SE3d& /*T*/) {
+    return RotationsAbout(metric.p_source);
+  }
+};
+
+template <>
+struct ResidualProperties<PlanarToPlane> : InvariantAndSmooth {
+  static std::vector<Vec6> NullSpace(const PlanarToPlane& metric, const SE3d& T) {
+    return WithSlidesAcross(T.R().transpose() * metric.plane.n_target,
+                            RotationsAbout(metric.plane.p_source));
+  }
+};
+
 INSTANTIATE_TYPED_TEST_SUITE_P(PlanarToPatch, ResidualTest, PlanarToPatch);
 INSTANTIATE_TYPED_TEST_SUITE_P(PlanarToPlane, ResidualTest, PlanarToPlane);
 
@@ -79,6 +94,9 @@ TEST(Epsilon, DerivativesAndEnds) {
     EXPECT_EQ(EvaluateEpsilon(epsilon, 0).value, 0);
     EXPECT_TRUE(std::isfinite(EvaluateEpsilon(epsilon, 0).derivative));
   }
+  EXPECT_EQ(EvaluateEpsilon(Epsilon::kSquared, 0).derivative, 1);
+  EXPECT_EQ(EvaluateEpsilon(Epsilon::kNorm, 0).derivative, 0);  // In the middle of its kink.
+  EXPECT_EQ(EvaluateEpsilon(Epsilon::kSoftNorm, 0).derivative, 0.5);
   // Small terms keep their digits: sqrt(1 + s) - 1 would lose them.
   EXPECT_NEAR(EvaluateEpsilon(Epsilon::kSoftNorm, 1e-12).value, 5e-13, 1e-24);
 }

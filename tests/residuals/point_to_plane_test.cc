@@ -6,19 +6,9 @@
 namespace icpscape {
 
 template <>
-struct ResidualProperties<PointToPlane> {
-  static constexpr bool kInvariantToTargetFrame = true;
-  static bool IsSmoothAt(const PointToPlane& /*metric*/, const SE3d& /*T*/) { return true; }
-  // Sliding within the plane, and turning about the point.
+struct ResidualProperties<PointToPlane> : InvariantAndSmooth {
   static std::vector<Vec6> NullSpace(const PointToPlane& metric, const SE3d& T) {
-    const Vec3 n = T.R().transpose() * metric.n_target;
-    const Vec3 in_plane = n.unitOrthogonal();
-    Vec6 slide_a, slide_b;
-    slide_a << Vec3::Zero(), in_plane;
-    slide_b << Vec3::Zero(), n.cross(in_plane);
-    return {slide_a, slide_b, RotationAbout(metric.p_source, Vec3::UnitX()),
-            RotationAbout(metric.p_source, Vec3::UnitY()),
-            RotationAbout(metric.p_source, Vec3::UnitZ())};
+    return WithSlidesAcross(T.R().transpose() * metric.n_target, RotationsAbout(metric.p_source));
   }
 };
 

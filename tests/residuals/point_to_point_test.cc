@@ -6,13 +6,9 @@
 namespace icpscape {
 
 template <>
-struct ResidualProperties<PointToPoint> {
-  static constexpr bool kInvariantToTargetFrame = true;
-  static bool IsSmoothAt(const PointToPoint& /*metric*/, const SE3d& /*T*/) { return true; }
+struct ResidualProperties<PointToPoint> : InvariantAndSmooth {
   static std::vector<Vec6> NullSpace(const PointToPoint& metric, const SE3d& /*T*/) {
-    return {RotationAbout(metric.p_source, Vec3::UnitX()),
-            RotationAbout(metric.p_source, Vec3::UnitY()),
-            RotationAbout(metric.p_source, Vec3::UnitZ())};
+    return RotationsAbout(metric.p_source);
   }
 };
 

@@ -5,54 +5,69 @@
 
 namespace icpscape {
 
+// In the source frame: the pair's vector e, R^T (T p - q), and what the residual projects it on.
+
 template <>
-struct ResidualProperties<Symmetric> {
+struct ResidualProperties<Symmetric> : InvariantAndSmooth {
   static constexpr bool kInvariantToTargetFrame = false;
-  static bool IsSmoothAt(const Symmetric& /*metric*/, const SE3d& /*T*/) { return true; }
   static std::vector<Vec6> NullSpace(const Symmetric& metric, const SE3d& T) {
-    Vec6 slide;
-    slide << Vec3::Zero(), (T.R().transpose() * metric.n_sum).unitOrthogonal();
-    return {slide, RotationAbout(metric.p_source, Vec3::UnitX()),
-            RotationAbout(metric.p_source, Vec3::UnitY()),
-            RotationAbout(metric.p_source, Vec3::UnitZ())};
+    return WithSlidesAcross(T.R().transpose() * metric.n_sum, RotationsAbout(metric.p_source));
   }
 };
 
+// A turn about the point leaves e, but turns n_s: the residual changes by e . (omega x n_s), which
+// a slide along m takes back.
 template <>
-struct ResidualProperties<SymmetricRotated> {
-  static constexpr bool kInvariantToTargetFrame = true;
-  static bool IsSmoothAt(const SymmetricRotated& /*metric*/, const SE3d& /*T*/) { return true; }
+struct ResidualProperties<SymmetricRotated> : InvariantAndSmooth {
   static std::vector<Vec6> NullSpace(const SymmetricRotated& metric, const SE3d& T) {
     const Vec3 m = metric.n_source + T.R().transpose() * metric.n_target;
-    Vec6 slide;
-    slide << Vec3::Zero(), m.unitOrthogonal();
-    return {slide};
+    const Vec3 e = T.R().transpose() * (T * metric.p_source - metric.q_target);
+    return WithSlidesAcross(m, RotationsAbout(metric.p_source, [&](const Vec3& omega) -> Vec3 {
+                              return -e.dot(omega.cross(metric.n_source)) / m.squaredNorm() * m;
+                            }));
   }
 };
 
+// Here the turn of R^1/2 has no simple form, so that it is taken by differences: e . H m changes by
+// e . dH m while R turns by Exp(omega).
 template <>
-struct ResidualProperties<SymmetricSplit> {
+struct ResidualProperties<SymmetricSplit> : InvariantAndSmooth {
   static constexpr bool kInvariantToTargetFrame = false;
   // The square root of a rotation jumps where the rotation reaches pi.
   static bool IsSmoothAt(const SymmetricSplit& /*metric*/, const SE3d& T) {
     return T.LogRotation().norm() < M_PI - 1e-3;
   }
   static std::vector<Vec6> NullSpace(const SymmetricSplit& metric, const SE3d& T) {
-    const Vec3 m = SymmetricSplit::SquareRoot(T) * metric.n_sum;
-    Vec6 slide;
-    slide << Vec3::Zero(), (T.R().transpose() * m).unitOrthogonal();
-    return {slide};
+    const auto turned_sum = [&](const Vec3& omega) -> Vec3 {
+      const SE3d turned(T.R() * SE3d::Exp((Vec6() << omega, Vec3::Zero()).finished()).R(), T.t());
+      return Eigen::AngleAxisd(turned.LogRotation().norm() / 2, turned.LogRotation().normalized()) *
+             metric.n_sum;
+    };
+    const Vec3 m = T.R().transpose() * turned_sum(Vec3::Zero());
+    const Vec3 e = T * metric.p_source - metric.q_target;
+    constexpr double h = 1e-3;
+    return WithSlidesAcross(m, RotationsAbout(metric.p_source, [&](const Vec3& omega) -> Vec3 {
+                              const Vec3 d =
+                                  (8 * (turned_sum(h * omega) - turned_sum(-h * omega)) -
+                                   turned_sum(2 * h * omega) + turned_sum(-2 * h * omega)) /
+                                  (12 * h);
+                              return -e.dot(d) / m.squaredNorm() * m;
+                            }));
   }
 };
 
+// As for the rotated form; the slide must leave e . n_t alone.
 template <>
-struct ResidualProperties<TwoPlane> {
-  static constexpr bool kInvariantToTargetFrame = true;
-  static bool IsSmoothAt(const TwoPlane& /*metric*/, const SE3d& /*T*/) { return true; }
+struct ResidualProperties<TwoPlane> : InvariantAndSmooth {
   static std::vector<Vec6> NullSpace(const TwoPlane& metric, const SE3d& T) {
-    Vec6 slide;
-    slide << Vec3::Zero(), metric.n_source.cross(T.R().transpose() * metric.n_target);
-    return {slide};
+    const Vec3 n_t = T.R().transpose() * metric.n_target;
+    const Vec3 e = T.R().transpose() * (T * metric.p_source - metric.q_target);
+    const Vec3 u = metric.n_source - metric.n_source.dot(n_t) * n_t;
+    std::vector<Vec6> twists = RotationsAbout(metric.p_source, [&](const Vec3& omega) -> Vec3 {
+      return -e.dot(omega.cross(metric.n_source)) / u.dot(metric.n_source) * u;
+    });
+    twists.push_back(Slide(metric.n_source.cross(n_t)));
+    return twists;
   }
 };
 

@@ -18,6 +18,9 @@ TEST(SimdLevel, IsTheWidestUnlessTheEnvironmentNamesOne) {
     EXPECT_EQ(ActiveSimdLevel(), level);
   }
   EXPECT_EQ(SupportedSimdLevels().front(), SimdLevel::kBaseline);
+  setenv("ICPSCAPE_SIMD", "", 1);
+  EXPECT_EQ(ActiveSimdLevel(), SupportedSimdLevels().back());
+  unsetenv("ICPSCAPE_SIMD");
 }
 
 TEST(SimdLevel, RefusesNamesThatAreNone) {

@@ -9,7 +9,9 @@
 
 #include "src/common/error.h"
 #include "src/io/kitti.h"
+#include "src/io/sequences.h"
 #include "src/simulation/scenes.h"
+#include "src/simulation/simulated_sequence.h"
 
 namespace icpscape {
 namespace {
@@ -61,18 +63,18 @@ class Dataset : public ::testing::Test {
 
 TEST_F(Dataset, ReadsBackAsKitti) {
   Write();
-  const KittiSequence sequence(root_, "street");
+  const ScanSequence sequence = OpenKittiSequence(root_, "street");
   DroppedPoints dropped;
-  const PointCloud cloud = ReadVelodyne(sequence.ScanPath(2), &dropped);
+  const PointCloud cloud = sequence.scans[2].read(&dropped);
   const PointCloud expected = Cloud(2);
   EXPECT_EQ(cloud.x, expected.x);
   EXPECT_EQ(cloud.y, expected.y);
   EXPECT_EQ(cloud.z, expected.z);
   EXPECT_EQ(cloud.intensity, expected.intensity);
   const SE3d truth = poses_[1].Inverse() * poses_[2];
-  EXPECT_TRUE(sequence.RelativeMotion(1, 2).Matrix().isApprox(truth.Matrix(), 1e-12));
-  EXPECT_TRUE(sequence.LidarPoses()[2].Matrix().isApprox((poses_[0].Inverse() * poses_[2]).Matrix(),
-                                                         1e-12));
+  EXPECT_TRUE(sequence.Motion(1, 2)->Matrix().isApprox(truth.Matrix(), 1e-12));
+  EXPECT_TRUE(sequence.T_world_lidar[2].Matrix().isApprox(
+      (poses_[0].Inverse() * poses_[2]).Matrix(), 1e-12));
   EXPECT_EQ(fs::file_size(Sequence() / "labels" / "000002.label"), 400U);
   EXPECT_EQ(fs::file_size(Sequence() / "rings" / "000002.ring"), 100U);
   std::ifstream labels(Sequence() / "labels" / "000002.label", std::ios::binary);
@@ -154,13 +156,13 @@ TEST_F(Dataset, TheProgramAnswersMistakesWithItsExitCode) {
 
 TEST_F(Dataset, AWrittenSceneIsTheSceneItself) {
   ASSERT_EQ(Simulate("--scene=right_turn --seed=4 --out=" + root_.string()), 0);
-  const SimulatedPair pair = SimulatePair("right_turn", 4, LidarOptions(), 2);
-  const KittiSequence sequence(root_, "right_turn");
+  const ScanPair pair = SimulatePair("right_turn", 4, LidarOptions(), 2);
+  const ScanSequence sequence = OpenKittiSequence(root_, "right_turn");
   DroppedPoints dropped;
-  EXPECT_EQ(ReadVelodyne(sequence.ScanPath(2), &dropped).x, pair.source.x);
-  EXPECT_EQ(ReadVelodyne(sequence.ScanPath(1), &dropped).x, pair.target.x);
-  EXPECT_TRUE(sequence.RelativeMotion(1, 2).Matrix().isApprox(pair.T_target_source.Matrix(), 1e-9));
-  EXPECT_TRUE(sequence.RelativeMotion(0, 1).Matrix().isApprox(pair.T_prior.Matrix(), 1e-9));
+  EXPECT_EQ(sequence.scans[2].read(&dropped).x, pair.source.x);
+  EXPECT_EQ(sequence.scans[1].read(&dropped).x, pair.target.x);
+  EXPECT_TRUE(sequence.Motion(1, 2)->Matrix().isApprox(pair.T_ground_truth->Matrix(), 1e-9));
+  EXPECT_TRUE(sequence.Motion(0, 1)->Matrix().isApprox(pair.T_predicted->Matrix(), 1e-9));
 }
 
 }  // namespace

@@ -2,8 +2,11 @@
 #ifndef ICPSCAPE_TESTS_SUPPORT_MATCHERS_H_
 #define ICPSCAPE_TESTS_SUPPORT_MATCHERS_H_
 
+#include <algorithm>
 #include <memory>
 #include <string>
+#include <utility>
+#include <vector>
 
 #include "src/matching/matcher_kinds.h"
 #include "src/objective/objective.h"
@@ -43,6 +46,38 @@ inline Correspondence PairByHand(const Matcher& matcher, const Matches& matches,
   }
   return c;
 }
+
+/// Pairs source point i with target point i at every pose, or with nothing where `unmatched` says
+/// so, and all of them with one line or patch: what a metric makes of a pair can be told by hand.
+class FixedMatcher final : public Matcher {
+ public:
+  FixedMatcher(const PointCloud& source, const PointCloud& target,
+               const LocalFit& fit = {Vec3::Zero(), Vec3::UnitZ()}, double area = 0,
+               std::vector<std::int32_t> unmatched = {})
+      : Matcher(source, target), fit_(fit), area_(area), unmatched_(std::move(unmatched)) {}
+
+  unsigned Provides() const override {
+    return kSourceNormal | kTargetNormal | kTargetLine | kTargetPatch;
+  }
+  double area_patch() const override { return area_; }
+
+ private:
+  void FindPart(const SE3d& /*T*/, std::size_t begin, std::size_t end,
+                Matches* matches) const override {
+    matches->target_index.assign(Order().begin() + static_cast<std::ptrdiff_t>(begin),
+                                 Order().begin() + static_cast<std::ptrdiff_t>(end));
+    for (std::int32_t& index : matches->target_index) {
+      if (std::find(unmatched_.begin(), unmatched_.end(), index) != unmatched_.end()) {
+        index = -1;
+      }
+    }
+    matches->fits.assign(end - begin, fit_);
+  }
+
+  LocalFit fit_;
+  double area_;
+  std::vector<std::int32_t> unmatched_;
+};
 
 }  // namespace icpscape::testing_support
 

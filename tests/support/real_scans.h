@@ -22,7 +22,7 @@ inline std::filesystem::path KittiRoot() {
 
 inline PointCloud KittiScan(const std::string& sequence, int frame) {
   DroppedPoints dropped;
-  return ReadVelodyne(KittiSequence(KittiRoot(), sequence).ScanPath(frame), &dropped);
+  return ReadVelodyne(KittiFiles(KittiRoot(), sequence).Scan(frame), &dropped);
 }
 
 }  // namespace icpscape

@@ -16,6 +16,7 @@
 #include <ceres/jet.h>
 #include <gtest/gtest.h>
 
+#include <Eigen/SVD>
 #include <cmath>
 #include <vector>
 
@@ -26,22 +27,60 @@
 
 namespace icpscape {
 
-/// What a metric's documentation claims beyond its formula.
+/// What a metric's documentation claims beyond its formula. Every metric declares it, by a
+/// specialisation with
+///   kInvariantToTargetFrame   whether |r| stays the same when the target frame alone is changed
+///                             (T with it)
+///   IsSmoothAt(metric, T)     false on the metric's non-smooth set and near it: there only
+///                             finiteness is asked for
+///   NullSpace(metric, T)      all directions xi to which a single pair is blind at T, J xi = 0, by
+///                             a basis of them
 template <class Metric>
-struct ResidualProperties {
-  /// Whether |r| stays the same when the target frame alone is changed (T with it).
+struct ResidualProperties;
+
+/// The first two of most metrics, to be derived from.
+struct InvariantAndSmooth {
   static constexpr bool kInvariantToTargetFrame = true;
-  /// False on the metric's non-smooth set and near it: there only finiteness is asked for.
-  static bool IsSmoothAt(const Metric& /*metric*/, const SE3d& /*T*/) { return true; }
-  /// Directions xi in which the metric's derivative vanishes at T.
-  static std::vector<Vec6> NullSpace(const Metric& /*metric*/, const SE3d& /*T*/) { return {}; }
+  template <class Metric>
+  static bool IsSmoothAt(const Metric& /*metric*/, const SE3d& /*T*/) {
+    return true;
+  }
 };
+
+/// A twist that moves the body without turning it.
+inline Vec6 Slide(const Vec3& v) {
+  Vec6 xi;
+  xi << Vec3::Zero(), v;
+  return xi;
+}
 
 /// A twist that turns about the source point p: [omega; p x omega] leaves p where it is.
 inline Vec6 RotationAbout(const Vec3& p_source, const Vec3& omega) {
   Vec6 xi;
   xi << omega, p_source.cross(omega);
   return xi;
+}
+
+/// The turns about the source point p, axis by axis, each with a slide of its own, slide(omega).
+template <class SlideOf>
+std::vector<Vec6> RotationsAbout(const Vec3& p_source, const SlideOf& slide) {
+  std::vector<Vec6> twists;
+  for (int axis = 0; axis < 3; ++axis) {
+    const Vec3 omega = Vec3::Unit(axis);
+    twists.push_back(RotationAbout(p_source, omega) + Slide(slide(omega)));
+  }
+  return twists;
+}
+inline std::vector<Vec6> RotationsAbout(const Vec3& p_source) {
+  return RotationsAbout(p_source, [](const Vec3& /*omega*/) { return Vec3(Vec3::Zero()); });
+}
+
+/// The twists given and the two slides across a direction.
+inline std::vector<Vec6> WithSlidesAcross(const Vec3& direction, std::vector<Vec6> twists) {
+  const Vec3 across = direction.unitOrthogonal();
+  twists.push_back(Slide(across));
+  twists.push_back(Slide(direction.normalized().cross(across)));
+  return twists;
 }
 
 template <class M>
@@ -212,12 +251,23 @@ TYPED_TEST_P(ResidualTest, CeresCostPassesGradientChecker) {
   }
 }
 
+// Every direction that a metric declares is flat, and as many are declared as there are.
 TYPED_TEST_P(ResidualTest, DocumentedNullSpaceIsFlat) {
+  const auto rank = [](const Eigen::MatrixXd& m) {
+    Eigen::JacobiSVD<Eigen::MatrixXd> svd(m);
+    return (svd.singularValues().array() > 1e-7 * svd.singularValues()[0]).count();
+  };
   for (const auto& sample : this->SmoothSamples()) {
     const auto J = sample.metric.Jacobian(sample.T);
-    for (const Vec6& xi : ResidualProperties<TypeParam>::NullSpace(sample.metric, sample.T)) {
-      EXPECT_LE((J * xi).norm(), 1e-10 * (1 + J.norm() * xi.norm()));
+    const std::vector<Vec6> declared =
+        ResidualProperties<TypeParam>::NullSpace(sample.metric, sample.T);
+    EXPECT_EQ(static_cast<long>(declared.size()), 6 - rank(J)) << "at\n" << sample.T.Matrix();
+    Eigen::MatrixXd basis(6, declared.size());
+    for (std::size_t k = 0; k < declared.size(); ++k) {
+      basis.col(static_cast<long>(k)) = declared[k].normalized();
+      EXPECT_LE((J * declared[k]).norm(), 1e-10 * (1 + J.norm() * declared[k].norm())) << k;
     }
+    EXPECT_TRUE(declared.empty() || rank(basis) == basis.cols());
   }
 }
 

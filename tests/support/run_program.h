@@ -5,6 +5,7 @@
 #include <fcntl.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
+#include <signal.h>
 #include <spawn.h>
 #include <sys/wait.h>
 #include <unistd.h>
@@ -13,6 +14,7 @@
 #include <map>
 #include <sstream>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "src/common/text.h"
@@ -29,33 +31,51 @@ struct Outcome {
   std::string err;
 };
 
+/// icpscape-APP while it runs.
+class RunningProgram {
+ public:
+  RunningProgram(const std::string& app, std::vector<std::string> arguments) {
+    const std::string program = std::string(ICPSCAPE_BIN_DIR) + "/icpscape-" + app;
+    arguments.insert(arguments.begin(), program);
+    std::vector<char*> argv;
+    for (std::string& argument : arguments) {
+      argv.push_back(argument.data());
+    }
+    argv.push_back(nullptr);
+    posix_spawn_file_actions_t actions;
+    posix_spawn_file_actions_init(&actions);
+    posix_spawn_file_actions_addopen(&actions, STDOUT_FILENO, out_.c_str(), O_CREAT | O_WRONLY,
+                                     0600);
+    posix_spawn_file_actions_addopen(&actions, STDERR_FILENO, err_.c_str(), O_CREAT | O_WRONLY,
+                                     0600);
+    EXPECT_EQ(posix_spawn(&pid_, program.c_str(), &actions, nullptr, argv.data(), environ), 0);
+    posix_spawn_file_actions_destroy(&actions);
+  }
+
+  void Signal(int number) const { kill(pid_, number); }
+
+  /// Waits for its end. Where a signal kills it the code is 256 + signal, which no program returns.
+  Outcome Wait() {
+    Outcome outcome;
+    int status = 0;
+    if (waitpid(pid_, &status, 0) == pid_) {
+      outcome.code = WIFEXITED(status) ? WEXITSTATUS(status) : 256 + WTERMSIG(status);
+    }
+    outcome.out = ReadFile(out_);
+    outcome.err = ReadFile(err_);
+    return outcome;
+  }
+
+ private:
+  TemporaryFolder capture_;
+  std::string out_ = (capture_.path() / "out").string();
+  std::string err_ = (capture_.path() / "err").string();
+  pid_t pid_ = 0;
+};
+
 /// Runs icpscape-APP to its end.
 inline Outcome RunProgram(const std::string& app, std::vector<std::string> arguments) {
-  const TemporaryFolder capture;
-  const std::string program = std::string(ICPSCAPE_BIN_DIR) + "/icpscape-" + app;
-  arguments.insert(arguments.begin(), program);
-  std::vector<char*> argv;
-  for (std::string& argument : arguments) {
-    argv.push_back(argument.data());
-  }
-  argv.push_back(nullptr);
-  posix_spawn_file_actions_t actions;
-  posix_spawn_file_actions_init(&actions);
-  const std::string out = (capture.path() / "out").string();
-  const std::string err = (capture.path() / "err").string();
-  posix_spawn_file_actions_addopen(&actions, STDOUT_FILENO, out.c_str(), O_CREAT | O_WRONLY, 0600);
-  posix_spawn_file_actions_addopen(&actions, STDERR_FILENO, err.c_str(), O_CREAT | O_WRONLY, 0600);
-  pid_t pid = 0;
-  Outcome outcome;
-  if (posix_spawn(&pid, program.c_str(), &actions, nullptr, argv.data(), environ) == 0) {
-    int status = 0;
-    waitpid(pid, &status, 0);
-    outcome.code = WIFEXITED(status) ? WEXITSTATUS(status) : 128 + WTERMSIG(status);
-  }
-  posix_spawn_file_actions_destroy(&actions);
-  outcome.out = ReadFile(out);
-  outcome.err = ReadFile(err);
-  return outcome;
+  return RunningProgram(app, std::move(arguments)).Wait();
 }
 
 /// Exit code, exactly one line on stderr, and what it must say.

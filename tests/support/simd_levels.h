@@ -5,9 +5,10 @@
 #include <gtest/gtest.h>
 
 #include <cstdlib>
-#include <string>
+#include <vector>
 
 #include "src/simd/level.h"
+#include "tests/support/named.h"
 
 namespace icpscape::testing_support {
 
@@ -21,15 +22,23 @@ class ScopedSimdLevel {
 };
 
 /// A fixture whose tests run at every level that the machine has.
-class EverySimdLevel : public ::testing::TestWithParam<SimdLevel> {
+class EverySimdLevel : public ::testing::TestWithParam<Named<SimdLevel>> {
+ public:
+  static std::vector<Named<SimdLevel>> Levels() {
+    std::vector<Named<SimdLevel>> levels;
+    for (const SimdLevel level : SupportedSimdLevels()) {
+      levels.push_back({SimdLevelName(level), level});
+    }
+    return levels;
+  }
+
  private:
-  ScopedSimdLevel level_{GetParam()};
+  ScopedSimdLevel level_{GetParam().value};
 };
 
-#define ICPSCAPE_INSTANTIATE_SIMD_LEVELS(fixture)                 \
-  INSTANTIATE_TEST_SUITE_P(                                       \
-      Level, fixture, ::testing::ValuesIn(SupportedSimdLevels()), \
-      [](const auto& test) { return std::string(SimdLevelName(test.param)); })
+#define ICPSCAPE_INSTANTIATE_SIMD_LEVELS(fixture)                                  \
+  INSTANTIATE_TEST_SUITE_P(Level, fixture, ::testing::ValuesIn(fixture::Levels()), \
+                           ::testing::PrintToStringParamName())
 
 }  // namespace icpscape::testing_support
 

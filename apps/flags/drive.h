@@ -1,0 +1,19 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#ifndef ICPSCAPE_APPS_FLAGS_DRIVE_H_
+#define ICPSCAPE_APPS_FLAGS_DRIVE_H_
+
+#include "src/cloud/scan_sequence.h"
+#include "src/io/manifest.h"
+
+namespace icpscape {
+
+/// Refuses what can be seen to be wrong before any file is read. Throws UsageError.
+void CheckDriveFlags();
+
+/// The sequence of the flags, of it --frames, turned around under --reverse. Prints what there is
+/// and records the small inputs. Throws InputError.
+ScanSequence DriveFromFlags(Manifest* manifest);
+
+}  // namespace icpscape
+
+#endif  // ICPSCAPE_APPS_FLAGS_DRIVE_H_

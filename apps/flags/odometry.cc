@@ -1,0 +1,82 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "apps/flags/odometry.h"
+
+#include <gflags/gflags.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "apps/flags/filters.h"
+#include "apps/flags/joint.h"
+#include "apps/flags/minimizer.h"
+#include "apps/flags/objective.h"
+#include "apps/flags/preparation.h"
+#include "apps/run/flag.h"
+#include "apps/run/run_flags.h"
+#include "src/common/text.h"
+
+static const icpscape::FlagGroup group(__FILE__, "Odometry");
+
+DECLARE_string(reassociation);
+
+DEFINE_string(mode, "scan_to_map",
+              "What a scan is registered to: scan_to_scan (the one before, the paper's), "
+              "scan_to_map, or two_stage (LOAM: the one before, and every few scans the map). "
+              "scan_to_map comes with --voxel_m=0.25 (but for metrics of edge and planar points), "
+              "--adaptive_gate_m=2 and --loss=huber where they are not given.");
+DEFINE_double(map_voxel_m, 0.5, "The map keeps one point per voxel of this size (m).");
+DEFINE_double(map_radius_m, 80, "The map forgets what is farther away than this (m).");
+DEFINE_int32(map_scans, 0,
+             "The map forgets scans older than so many; 0 is no limit, 1 the paper's map.");
+DEFINE_int32(map_every, 10, "With two_stage: a mapping step every so many scans.");
+DEFINE_string(prediction, "constant_velocity",
+              "Where registration starts, and T_e of the filters: constant_velocity (the motion "
+              "before) or none.");
+DEFINE_double(adaptive_gate_m, 0,
+              "If positive: how far the first prediction is taken to be off (m); the longest "
+              "distance of a pair is then three times the predictions' RMS error so far "
+              "(KISS-ICP), instead of --max_distance_m.");
+
+namespace icpscape {
+
+void SetDefaultsOfMode() {
+  const std::vector<std::string> metrics = MetricsFromFlags();
+  if (OdometryModeFromName(FLAGS_mode) == OdometryMode::kScanToMap) {
+    if (std::none_of(metrics.begin(), metrics.end(), NeedsFeatures)) {
+      SetFlagDefault("voxel_m", "0.25");
+    }
+    if (FLAGS_reassociation != "every_evaluation") {  // Which compares sums over all pairs.
+      SetFlagDefault("adaptive_gate_m", "2");
+    }
+    SetFlagDefault("loss", "huber");
+  }
+}
+
+OdometryOptions OdometryFromFlags() {
+  OdometryOptions options;
+  options.mode = OdometryModeFromName(FLAGS_mode);
+  options.metrics = MetricsFromFlags();
+  options.weights = WeightsFromFlags();
+  options.preparation = PreparationFromFlags(options.metrics);
+  options.filters = FiltersFromFlags();
+  options.objective = ObjectiveSetFromFlags();
+  options.minimizer = MinimizerFromFlags();
+  RequireFlag(FLAGS_map_voxel_m > 0 && std::isfinite(FLAGS_map_voxel_m), "map_voxel_m",
+              Number(FLAGS_map_voxel_m), "a positive length");
+  RequireFlag(FLAGS_map_radius_m > 0, "map_radius_m", Number(FLAGS_map_radius_m),
+              "a positive length");
+  RequireFlag(FLAGS_map_scans >= 0, "map_scans", std::to_string(FLAGS_map_scans), "0 or more");
+  RequireFlag(FLAGS_map_every >= 1, "map_every", std::to_string(FLAGS_map_every), "at least 1");
+  RequireFlag(FLAGS_adaptive_gate_m >= 0 && std::isfinite(FLAGS_adaptive_gate_m), "adaptive_gate_m",
+              Number(FLAGS_adaptive_gate_m), "a length in m, or 0");
+  options.map = {FLAGS_map_voxel_m, FLAGS_map_radius_m, FLAGS_map_scans};
+  options.map_every = FLAGS_map_every;
+  options.constant_velocity =
+      IndexOfName("prediction", FLAGS_prediction, {"constant_velocity", "none"}) == 0;
+  options.adaptive_gate_m = FLAGS_adaptive_gate_m;
+  options.threads = ThreadsFromFlags();
+  options.Check();
+  return options;
+}
+
+}  // namespace icpscape

@@ -1,0 +1,23 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#ifndef ICPSCAPE_APPS_REPORTS_GROUND_TRUTH_CHECK_H_
+#define ICPSCAPE_APPS_REPORTS_GROUND_TRUTH_CHECK_H_
+
+#include <optional>
+
+#include "src/cloud/scan_pair.h"
+#include "src/io/manifest.h"
+#include "src/minimizer/ground_truth_check.h"
+#include "src/preparation/prepared_pair.h"
+
+namespace icpscape {
+
+/// Checks the pair's ground truth, prints how far point-to-plane moves from it and records that. A
+/// truth that is exact stays what it is: there an offset is the metric's. Where the check has no
+/// answer: throws ComputationError if it is `needed`, else says so and returns nothing.
+std::optional<GroundTruthCheck> ReportGroundTruthCheck(const ScanPair& pair,
+                                                       const PreparedPair& scans, bool needed,
+                                                       int threads, Manifest* manifest);
+
+}  // namespace icpscape
+
+#endif  // ICPSCAPE_APPS_REPORTS_GROUND_TRUTH_CHECK_H_

@@ -1,0 +1,117 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "apps/reports/odometry.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+#include <iostream>
+
+#include "src/common/text.h"
+#include "src/io/kitti.h"
+#include "src/io/output.h"
+#include "src/io/point_files.h"
+
+namespace icpscape {
+namespace {
+
+constexpr double kDegrees = 180 / M_PI;
+
+void WriteFrames(const ScanSequence& sequence, const std::vector<FrameRecord>& records, Run* run) {
+  Table frames({"frame", "scan", "time_s", "registered", "termination", "iterations", "n", "rmse",
+                "gate_m", "points", "map_points", "motion_m", "motion_deg", "x_m", "y_m", "z_m"});
+  // Apart, since no two runs take the same time.
+  Table timings({"frame", "read_s", "odometry_s"});
+  for (std::size_t i = 0; i < records.size(); ++i) {
+    const FrameResult& r = records[i].result;
+    const Vec3& t = r.T_world_lidar.t();
+    frames.AddRow({std::to_string(i), sequence.scans[i].name, Number(sequence.times_s[i]),
+                   r.registered ? "1" : "0", i == 0 ? "first" : TerminationName(r.termination),
+                   std::to_string(r.iterations), std::to_string(r.n), Number(r.rmse),
+                   Number(r.gate_m), std::to_string(r.points), std::to_string(r.map_points),
+                   Number(r.motion.t().norm()), Number(r.motion.LogRotation().norm() * kDegrees),
+                   Number(t.x()), Number(t.y()), Number(t.z())});
+    timings.AddRow({std::to_string(i), Number(records[i].read_s), Number(records[i].odometry_s)});
+  }
+  frames.WriteCsv(run->File("frames.csv"));
+  timings.WriteCsv(run->File("timings.csv"));
+}
+
+void ReportFailures(const std::vector<FrameRecord>& records, Manifest* manifest) {
+  const auto failures =
+      std::count_if(records.begin() + 1, records.end(),
+                    [](const FrameRecord& record) { return !record.result.registered; });
+  if (failures > 0) {
+    std::cout << failures << " scans could not be registered: the prediction stands in\n";
+  }
+  const auto unfinished =
+      std::count_if(records.begin() + 1, records.end(), [](const FrameRecord& record) {
+        return record.result.termination == Termination::kMaxIterations;
+      });
+  if (unfinished > 0) {
+    std::cout << unfinished << " scans ended at the limit of steps: see frames.csv\n";
+  }
+  manifest->SetResult("ended_at_limit", static_cast<double>(unfinished));
+  manifest->SetResult("not_registered", static_cast<double>(failures));
+}
+
+void PrintPath(const std::vector<SE3d>& T_world_body) {
+  const double away_m = (T_world_body.back().t() - T_world_body.front().t()).norm();
+  std::printf("path: %.1f m, %.1f m from its start to its end\n", PathLengths(T_world_body).back(),
+              away_m);
+}
+
+void ReportSpeed(const std::vector<FrameRecord>& records, Manifest* manifest) {
+  std::vector<double> seconds;
+  double sum = 0;
+  for (const FrameRecord& record : records) {
+    seconds.push_back(record.read_s + record.odometry_s);
+    sum += seconds.back();
+  }
+  const double mean = sum / static_cast<double>(seconds.size());
+  std::printf("time per scan, reading included: mean %.1f ms (%.1f Hz), longest %.1f ms\n",
+              1e3 * mean, 1 / mean, 1e3 * *std::max_element(seconds.begin(), seconds.end()));
+  manifest->SetResult("mean_s_per_scan", mean);
+}
+
+}  // namespace
+
+NamedTrajectory ReportOdometry(const ResumableOdometry& odometry, Run* run) {
+  const ScanSequence& sequence = odometry.sequence();
+  Trajectory lidar;
+  lidar.times_s = sequence.times_s;
+  for (const FrameRecord& record : odometry.records()) {
+    lidar.T_world_body.push_back(record.result.T_world_lidar);
+  }
+  const SE3d Tr = sequence.T_camera_lidar.value_or(SE3d());  // Without a camera: the lidar's poses.
+  NamedTrajectory named;
+  named.name = sequence.title;
+  named.pair.estimate = KittiPosesOf(lidar.T_world_body, Tr);
+  if (sequence.times_are_measured) {
+    named.pair.times_s = sequence.times_s;
+  }
+  if (!sequence.T_world_lidar.empty() && sequence.scans.size() > 1) {  // One pose has no error.
+    named.pair.truth = KittiPosesOf(sequence.T_world_lidar, Tr);
+  }
+  WriteKittiTrajectory(run->File("trajectory_kitti.txt"), named.pair.estimate);
+  WriteTumTrajectory(run->File("trajectory_tum.txt"), lidar);
+  WriteFrames(sequence, odometry.records(), run);
+  if (odometry.map()) {
+    WritePly(run->File("map.ply"), odometry.map()->Cloud(SE3d()));
+  }
+  ReportFailures(odometry.records(), run->manifest());
+  PrintPath(named.pair.estimate);
+  ReportSpeed(odometry.records(), run->manifest());
+  return named;
+}
+
+void ReportEnd(const TrajectoryPair& pair, Manifest* manifest) {
+  const SE3d truth = pair.truth.front().Inverse() * pair.truth.back();
+  const SE3d error = truth.Inverse() * (pair.estimate.front().Inverse() * pair.estimate.back());
+  const double degrees = error.LogRotation().norm() * kDegrees;
+  std::printf("end: %.4f m, %.4f deg off the ground truth after %.1f m\n", error.t().norm(),
+              degrees, PathLengths(pair.truth).back());
+  manifest->SetResult("end_off_m", error.t().norm());
+  manifest->SetResult("end_off_deg", degrees);
+}
+
+}  // namespace icpscape

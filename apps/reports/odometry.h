@@ -1,0 +1,23 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#ifndef ICPSCAPE_APPS_REPORTS_ODOMETRY_H_
+#define ICPSCAPE_APPS_REPORTS_ODOMETRY_H_
+
+#include <vector>
+
+#include "apps/reports/trajectory.h"
+#include "apps/run/run.h"
+#include "src/odometry/resumable.h"
+
+namespace icpscape {
+
+/// Writes trajectory_kitti.txt, trajectory_tum.txt, frames.csv, timings.csv and, where there is a
+/// map, map.ply; prints and records failures, path and speed. Returns the trajectory with the
+/// truth, where that is known for more than one scan, both as KITTI's files have them.
+NamedTrajectory ReportOdometry(const ResumableOdometry& odometry, Run* run);
+
+/// Prints and records how far the end is off the truth.
+void ReportEnd(const TrajectoryPair& pair, Manifest* manifest);
+
+}  // namespace icpscape
+
+#endif  // ICPSCAPE_APPS_REPORTS_ODOMETRY_H_

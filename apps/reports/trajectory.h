@@ -1,0 +1,35 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#ifndef ICPSCAPE_APPS_REPORTS_TRAJECTORY_H_
+#define ICPSCAPE_APPS_REPORTS_TRAJECTORY_H_
+
+#include <string>
+#include <vector>
+
+#include "apps/run/run.h"
+#include "src/odometry/trajectory_errors.h"
+
+namespace icpscape {
+
+/// One estimated trajectory under the name that tables and figures give it. `pair.truth` is empty
+/// where none is known.
+struct NamedTrajectory {
+  std::string name;
+  TrajectoryPair pair;
+};
+
+/// Prints and records all errors of trajectories with truth, and writes them: errors.csv, one row a
+/// segment of KITTI's protocol; summary.csv, their means by sequence, length and speed;
+/// pose_errors.csv, ATE by alignment and RPE over `rpe_frames`. What a trajectory is too short for
+/// is said in one sentence. Throws UsageError where one has no successor `rpe_frames` on.
+void ReportTrajectoryErrors(const std::vector<NamedTrajectory>& trajectories, int rpe_frames,
+                            Run* run);
+
+/// Writes trajectory.csv and draws it as trajectory.svg and .png: positions, aligned by the first
+/// pose, and the distance from the truth over the path; without truth the positions alone (nan in
+/// the columns of the truth).
+void DrawTrajectories(const std::vector<NamedTrajectory>& trajectories, const std::string& title,
+                      Run* run);
+
+}  // namespace icpscape
+
+#endif  // ICPSCAPE_APPS_REPORTS_TRAJECTORY_H_

@@ -1,0 +1,17 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#ifndef ICPSCAPE_APPS_RUN_RUN_FLAGS_H_
+#define ICPSCAPE_APPS_RUN_RUN_FLAGS_H_
+
+#include <filesystem>
+
+namespace icpscape {
+
+/// --threads, or the number of all threads of the machine where it is 0. Throws UsageError.
+int ThreadsFromFlags();
+
+/// --out. Throws UsageError where it is empty.
+std::filesystem::path OutFromFlags();
+
+}  // namespace icpscape
+
+#endif  // ICPSCAPE_APPS_RUN_RUN_FLAGS_H_

@@ -1,0 +1,29 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#ifndef ICPSCAPE_SRC_CLOUD_SCAN_PAIR_H_
+#define ICPSCAPE_SRC_CLOUD_SCAN_PAIR_H_
+
+#include <optional>
+#include <string>
+
+#include "src/cloud/point_cloud.h"
+
+namespace icpscape {
+
+/// Two scans to register and what is known about the motion between them. Poses are
+/// T_target_source: they map points of the source into the frame of the target.
+struct ScanPair {
+  std::string title;  ///< For figures: "KITTI 00, scan 95 to 94".
+  PointCloud source;
+  PointCloud target;
+  std::optional<SE3d> T_ground_truth;
+  bool truth_is_exact = false;  ///< Simulated scans: the truth needs no check.
+  /// The pose predicted from the frame before, T_e in the paper: its motion, where it is known.
+  std::optional<SE3d> T_predicted;
+
+  /// Swaps source and target and inverts the poses.
+  void Reverse();
+};
+
+}  // namespace icpscape
+
+#endif  // ICPSCAPE_SRC_CLOUD_SCAN_PAIR_H_

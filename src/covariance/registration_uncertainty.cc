@@ -1,0 +1,62 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "src/covariance/registration_uncertainty.h"
+
+#include "src/common/error.h"
+
+namespace icpscape {
+namespace {
+
+// Why an estimator has no covariance.
+std::string Reason(Estimator estimator, const CovarianceSums& sums, bool is_determined) {
+  if (!is_determined) {
+    return "the pairs do not determine all six degrees of freedom";
+  }
+  if (estimator == Estimator::kCensiRingBias && !sums.ring_bias) {
+    return "the points have no rings";
+  }
+  if (estimator == Estimator::kSandwichRematched && sums.clusters > 6) {
+    return "where the pairs follow the pose, the cost has no minimum here";
+  }
+  return "there is too little to estimate it from";
+}
+
+}  // namespace
+
+MinimizerOptions PreciseMinimizer() {
+  MinimizerOptions options;
+  options.max_iterations = 100;
+  options.min_step_m = 1e-5;
+  options.min_step_rad = 1e-6;
+  return options;
+}
+
+RegistrationUncertainty RegisterWithUncertainty(const Objective& objective, const SE3d& T_start,
+                                                const CovarianceOptions& options,
+                                                double length_scale_m, int threads) {
+  MinimizerOptions minimizer = PreciseMinimizer();
+  minimizer.threads = threads;
+  RegistrationUncertainty result;
+  result.registration = Minimize(objective, T_start, minimizer);
+  if (!result.registration.Usable()) {
+    throw ComputationError(objective.metric().name + ": " + result.registration.message);
+  }
+  const SE3d& T = result.registration.T_target_source();
+  result.sums = SumForCovariance(objective, T, options, threads);
+  const bool is_determined =
+      EstimateCovariance(Estimator::kGaussNewton, result.sums, options).has_value();
+  for (const Estimator estimator : AllEstimators()) {
+    EstimatedCovariance entry;
+    entry.estimator = estimator;
+    entry.covariance = EstimateCovariance(estimator, result.sums, options);
+    if (!entry.covariance) {
+      entry.reason = Reason(estimator, result.sums, is_determined);
+    }
+    result.covariances.push_back(entry);
+  }
+  result.directions = EigenDirectionsOf(result.sums.gauss_newton, length_scale_m);
+  result.verdicts = JudgeDegeneracy(result.sums.gauss_newton,
+                                    PlaneConstraintsOf(objective, T, objective.Match(T, threads)));
+  return result;
+}
+
+}  // namespace icpscape

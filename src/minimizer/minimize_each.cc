@@ -1,0 +1,16 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "src/minimizer/minimize_each.h"
+
+namespace icpscape {
+
+std::vector<MetricIterates> MinimizeEach(const std::vector<Objective>& objectives,
+                                         const SE3d& T_start, const MinimizerOptions& options) {
+  std::vector<MetricIterates> all;
+  for (const Objective& objective : objectives) {
+    all.push_back(
+        {objective.metric().name, Minimize(JointObjective({{&objective, 1.0}}), T_start, options)});
+  }
+  return all;
+}
+
+}  // namespace icpscape

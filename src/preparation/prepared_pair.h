@@ -1,0 +1,35 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#ifndef ICPSCAPE_SRC_PREPARATION_PREPARED_PAIR_H_
+#define ICPSCAPE_SRC_PREPARATION_PREPARED_PAIR_H_
+
+#include <utility>
+
+#include "residuals/correspondence.h"
+#include "src/filtering/kept_points.h"
+#include "src/preparation/prepared_scan.h"
+
+namespace icpscape {
+
+/// The two scans of a pair, prepared: what an ObjectiveSet is made of.
+struct PreparedPair {
+  PreparedScan source;
+  PreparedScan target;
+
+  /// What a filter keeps; see PreparedScan::Select.
+  PreparedPair Select(const KeptPoints& kept, int threads) const {
+    return {source.Select(kept.source, threads), target.Select(kept.target, threads)};
+  }
+};
+
+/// Each scan with what it needs: features are extracted of the source alone, since metrics of lines
+/// and patches fit to all points of the target.
+inline PreparedPair PreparePair(PointCloud source, PointCloud target, unsigned needs,
+                                const PreparationOptions& options, int threads) {
+  return {
+      Prepare(std::move(source), needs & ~static_cast<unsigned>(kTargetNormal), options, threads),
+      Prepare(std::move(target), needs & kTargetNormal, options, threads)};
+}
+
+}  // namespace icpscape
+
+#endif  // ICPSCAPE_SRC_PREPARATION_PREPARED_PAIR_H_

@@ -1,0 +1,60 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "src/preparation/prepared_scan.h"
+
+#include <optional>
+#include <utility>
+
+#include "residuals/correspondence.h"
+#include "src/cloud/rings.h"
+#include "src/filtering/voxel_filter.h"
+#include "src/preparation/elevation.h"
+
+namespace icpscape {
+namespace {
+
+bool ReadsRings(const FeatureOptions& options) {
+  return options.smoothness.neighborhood == SmoothnessNeighborhood::kRing ||
+         options.caps.regions_per_ring > 0;
+}
+
+}  // namespace
+
+PreparedScan::PreparedScan(SearchableCloud points, std::optional<Features> features)
+    : features_(std::move(features)) {
+  const PointCloud& cloud = points.cloud();
+  if (features_) {
+    clouds_.edges.emplace(cloud.Select(features_->edge), points.threads());
+    clouds_.planar.emplace(cloud.Select(features_->planar), points.threads());
+  }
+  clouds_.points = std::move(points);
+}
+
+PreparedScan PreparedScan::Select(const std::vector<char>& keep, int threads) const {
+  return PreparedScan(SearchableCloud(cloud().Select(keep), threads),
+                      features_ ? std::optional(features_->Select(keep)) : std::nullopt);
+}
+
+PreparedScan Prepare(PointCloud scan, unsigned needs, const PreparationOptions& options,
+                     int threads) {
+  CorrectElevation(options.elevation_correction_deg, &scan);
+  if (options.voxel_m > 0) {
+    scan = VoxelFilter(scan, options.voxel_m);
+  }
+  std::optional<NeighborSearch> search;
+  if ((needs & (kSourceNormal | kTargetNormal)) != 0) {
+    search.emplace(scan.View(), threads);
+    EstimateNormals(*search, options.normals, threads, &scan);
+  }
+  std::optional<Features> features;
+  if ((needs & (kTargetLine | kTargetPatch)) != 0) {
+    if (ReadsRings(options.features)) {
+      RecoverRings(&scan);
+    }
+    features = ExtractFeatures(scan, options.features, threads);
+  }
+  SearchableCloud points = search ? SearchableCloud(std::move(scan), *std::move(search))
+                                  : SearchableCloud(std::move(scan), threads);
+  return PreparedScan(std::move(points), std::move(features));
+}
+
+}  // namespace icpscape

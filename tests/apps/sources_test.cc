@@ -1,0 +1,117 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Every program reads every source of scans: files, folders, raw drives, KITTI's layout and
+// simulated scans; a pair is two frames of it.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <filesystem>
+#include <nlohmann/json.hpp>
+
+#include "src/io/point_files.h"
+#include "src/io/transform.h"
+#include "tests/apps/apps_fixture.h"
+#include "tests/support/run_program.h"
+
+namespace icpscape {
+namespace {
+
+using testing::HasSubstr;
+using testing_support::ExpectRefusal;
+using testing_support::Outcome;
+using testing_support::ReadFile;
+using testing_support::RunProgram;
+
+class Sources : public testing_support::AppsFixture {
+ protected:
+  Sources() {
+    // The fixture's KITTI scans once more, as a folder and as a raw drive, behind another scan.
+    const std::filesystem::path scans = Path("kitti/sequences/00/velodyne");
+    for (const char* folder : {"folder", "raw/velodyne_points/data"}) {
+      std::filesystem::create_directories(Path(folder));
+      const std::filesystem::path into = Path(folder);
+      std::filesystem::copy(scans / "000001.bin", into / "0000000003.bin");
+      std::filesystem::copy(scans / "000000.bin", into / "0000000004.bin");
+      std::filesystem::copy(scans / "000001.bin", into / "0000000007.bin");
+    }
+  }
+
+  // The registered pose, as text.
+  std::string Register(std::vector<std::string> arguments) const {
+    arguments.push_back("--out=" + Path("registered"));
+    const Outcome outcome = RunProgram("register", arguments);
+    EXPECT_EQ(outcome.code, 0) << outcome.err;
+    return ReadFile(Path("registered/T_target_source.txt"));
+  }
+};
+
+TEST_F(Sources, RegisterTakesTwoFramesOfAny) {
+  const std::string expected = Register({"--kitti_root=" + Path("kitti"), "--frame=1"});
+  EXPECT_EQ(Register({"--scans=" + Path("folder"), "--frame=2"}), expected);
+  EXPECT_EQ(Register({"--scans=" + Path("raw"), "--frame=2"}), expected);
+  EXPECT_EQ(Register({"--scans=" + Path("raw"), "--frame=0", "--target_frame=1"}), expected);
+  EXPECT_EQ(Register({"--scans=" + Path("raw"), "--frame=1", "--target_frame=2", "--reverse"}),
+            expected);
+  EXPECT_EQ(Register({"--source=" + Path("folder/0000000007.bin"),
+                      "--target=" + Path("folder/0000000004.bin")}),
+            expected);
+}
+
+TEST_F(Sources, LandscapeTakesTwoFramesOfAFolderWithItsTrajectory) {
+  const Outcome kitti = RunProgram("landscape", Kitti());
+  ASSERT_EQ(kitti.code, 0) << kitti.err;
+  const std::string curves = ReadFile(Path("out/curves.csv"));
+  std::string poses = ReadFile(Path("kitti/poses/00.txt"));
+  const std::string second = poses.substr(poses.find('\n') + 1);
+  folder_.Write("trajectory.txt", second + poses);  // As the scans: the second comes first.
+  const std::vector<std::string> folder = {"--scans=" + Path("folder"), "--frame=2", "--samples=4",
+                                           "--out=" + Path("out")};
+  ExpectRefusal(RunProgram("landscape", folder), 1, "no ground truth: expected --ground_truth");
+  std::vector<std::string> with_truth = folder;
+  with_truth.push_back("--ground_truth=" + Path("trajectory.txt"));
+  const Outcome outcome = RunProgram("landscape", with_truth);
+  ASSERT_EQ(outcome.code, 0) << outcome.err;
+  EXPECT_EQ(ReadFile(Path("out/curves.csv")), curves);
+}
+
+TEST_F(Sources, OdometryDrivesThroughASceneAsThroughItsFiles) {
+  const std::vector<std::string> lidar = {"--azimuth_step_deg=1.5", "--seed=3"};
+  std::vector<std::string> simulate = lidar, direct = lidar;
+  simulate.insert(simulate.end(), {"--scene=right_turn", "--out=" + Path("simulated")});
+  ASSERT_EQ(RunProgram("simulate", simulate).code, 0);
+  direct.insert(direct.end(), {"--scene=right_turn", "--out=" + Path("direct")});
+  const Outcome outcome = RunProgram("odometry", direct);
+  ASSERT_EQ(outcome.code, 0) << outcome.err;
+  EXPECT_THAT(outcome.out, HasSubstr("3 scans"));
+  ASSERT_EQ(RunProgram("odometry", {"--kitti_root=" + Path("simulated"), "--sequence=right_turn",
+                                    "--out=" + Path("files")})
+                .code,
+            0);
+  EXPECT_EQ(ReadFile(Path("direct/trajectory_tum.txt")),
+            ReadFile(Path("files/trajectory_tum.txt")));
+}
+
+TEST_F(Sources, ADriveIsASourceOfPairs) {
+  const Outcome outcome =
+      RunProgram("register", {"--scene=town", "--frame=40", "--target_frame=38",
+                              "--azimuth_step_deg=1.5", "--out=" + Path("town")});
+  ASSERT_EQ(outcome.code, 0) << outcome.err;
+  EXPECT_THAT(outcome.out, HasSubstr("ground truth: exact"));
+  ExpectRefusal(RunProgram("register", {"--scene=town", "--out=" + Path("town")}), 1,
+                "no --frame: expected the number of the scan");
+}
+
+// A scan's normals, the check of the ground truth and the matching share one search.
+TEST_F(Sources, APairIsReadPreparedAndRegisteredWithOneSearchPerScan) {
+  for (const char* metric : {"point_to_point", "point_to_plane", "symmetric"}) {
+    const Outcome outcome =
+        RunProgram("register", {"--kitti_root=" + Path("kitti"), "--frame=1",
+                                std::string("--metrics=") + metric, "--out=" + Path("out")});
+    ASSERT_EQ(outcome.code, 0) << outcome.err;
+    EXPECT_THAT(outcome.out, HasSubstr("ground-truth check"));
+    const auto manifest = nlohmann::json::parse(ReadFile(Path("out/manifest.json")));
+    EXPECT_EQ(manifest["results"]["searches_built"], 2) << metric;
+  }
+}
+
+}  // namespace
+}  // namespace icpscape

@@ -1,0 +1,68 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "src/covariance/registration_uncertainty.h"
+
+#include <gtest/gtest.h>
+
+#include "src/common/error.h"
+#include "src/matching/closest_point_matcher.h"
+#include "tests/support/scenes.h"
+
+namespace icpscape {
+namespace {
+
+const SE3d kMotion = SE3d::Exp((Vec6() << 0.01, -0.005, 0.05, 0.3, 0.05, -0.02).finished());
+
+TEST(RegistrationUncertainty, IsThatOfTheSolution) {
+  const testing_support::MovedRoom room(3000, kMotion);
+  const ClosestPointMatcher matcher(room.source, room.target);
+  const Objective objective("point_to_plane", matcher);
+  const CovarianceOptions options;
+  const RegistrationUncertainty result = RegisterWithUncertainty(objective, SE3d(), options, 10, 2);
+  const SE3d& T = result.registration.T_target_source();
+  EXPECT_LT((kMotion.Inverse() * T).t().norm(), 0.01);
+  // The covariance is of the size of the actual error, which is not known to the function.
+  const Vec6 error = (kMotion.Inverse() * T).Log();
+  ASSERT_EQ(result.covariances.size(), AllEstimators().size());
+  const Mat6 gauss_newton = result.covariances[0].covariance.value();
+  EXPECT_LT(error.dot(gauss_newton.inverse() * error), 10 * 6);
+  EXPECT_GT(gauss_newton(3, 3), 1e-10);
+  // Directions are eigenvectors of the Hessian in [L omega; v], L = 10 m.
+  const Mat6 hessian = objective.Evaluate(T, 1).sums.Hessian();
+  Vec6 scale = Vec6::Ones();
+  scale.head<3>() /= 10;
+  const Vec6 weakest = result.directions.directions.col(0);
+  const Vec6 product = scale.asDiagonal() * hessian * scale.asDiagonal() * weakest;
+  EXPECT_LT((product - result.directions.eigenvalues[0] * weakest).norm(), 1e-9 * product.norm());
+  EXPECT_EQ(result.verdicts.size(), 4U * 6U);
+  for (const EstimatedCovariance& entry : result.covariances) {
+    EXPECT_EQ(entry.covariance.has_value(), entry.reason.empty());
+  }
+  EXPECT_EQ(result.covariances[2].reason, "the points have no rings");
+}
+
+TEST(RegistrationUncertainty, SaysWhyThereIsNone) {
+  PointCloud plane;
+  for (int i = 0; i < 400; ++i) {
+    testing_support::AddPoint(Vec3(0.3 * (i % 20) - 3, 0.3 * (i / 20) - 3, -1.7), &plane);
+  }
+  EstimateNormals({}, 1, &plane);
+  const ClosestPointMatcher matcher(plane, plane);
+  const RegistrationUncertainty result =
+      RegisterWithUncertainty(Objective("point_to_plane", matcher), SE3d(), {}, 10, 1);
+  for (const EstimatedCovariance& entry : result.covariances) {
+    EXPECT_FALSE(entry.covariance.has_value());
+    EXPECT_EQ(entry.reason, "the pairs do not determine all six degrees of freedom");
+  }
+}
+
+TEST(RegistrationUncertainty, NeedsARegistration) {
+  const testing_support::MovedRoom room(500, kMotion);
+  MatchingOptions none;
+  none.max_distance_m = 1e-9;
+  const ClosestPointMatcher matcher(room.source, room.target, none);
+  EXPECT_THROW(RegisterWithUncertainty(Objective("point_to_plane", matcher), SE3d(), {}, 10, 1),
+               ComputationError);
+}
+
+}  // namespace
+}  // namespace icpscape
