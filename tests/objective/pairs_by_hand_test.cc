@@ -237,9 +237,10 @@ TEST(Objective, ChecksThatItsNeedsAreThere) {
   const ClosestPointMatcher both(with, with), no_source(without, with), no_target(with, without);
   EXPECT_DEATH(Objective("edge_to_line", both),
                "edge_to_line needs more than its matcher provides");
-  EXPECT_DEATH(Objective("symmetric", no_source), "symmetric needs normals in the source cloud");
+  EXPECT_DEATH(Objective("symmetric", no_source),
+               "symmetric needs source normals; the source cloud has none");
   EXPECT_DEATH(Objective("point_to_plane", no_target),
-               "point_to_plane needs normals in the target cloud");
+               "point_to_plane needs target normals; the target cloud has none");
   const Matches of_another_cloud{{0, 0}};
   EXPECT_DEATH(Objective("point_to_point", both).Evaluate(SE3d(), of_another_cloud, 1),
                "target_index.size");
