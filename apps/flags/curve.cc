@@ -53,7 +53,7 @@ CurveOptions CurveFromFlags() {
   options.u_max = FLAGS_u_max;
   options.samples = FLAGS_samples;
   options.threads = ThreadsFromFlags();
-  options.patch_offset = PatchOffsetFromName(FLAGS_patch_offset);
+  options.patch_offset = FromName<PatchOffset>(FLAGS_patch_offset);
   if (IsFrozen()) {
     options.frozen_u = FLAGS_frozen_u;
   }
@@ -61,7 +61,7 @@ CurveOptions CurveFromFlags() {
   return options;
 }
 
-PathKind PathKindFromFlags() { return PathKindFromName(FLAGS_path); }
+PathKind PathKindFromFlags() { return FromName<PathKind>(FLAGS_path); }
 
 CurveColumn ColumnFromFlags() { return CurveColumnFromName(FLAGS_column); }
 

@@ -34,11 +34,9 @@ DEFINE_string(feature_caps, "none",
 namespace icpscape {
 
 FeatureOptions FeaturesFromFlags() {
-  const auto formula = static_cast<SmoothnessFormula>(
-      IndexOfName("smoothness", FLAGS_smoothness, {"printed", "a_loam", "lio_sam"}));
-  FeatureOptions options = ConventionalFeatureOptions(formula);
-  options.smoothness.neighborhood = static_cast<SmoothnessNeighborhood>(IndexOfName(
-      "smoothness neighbourhood", FLAGS_smoothness_neighborhood, {"ring", "k_nearest", "radius"}));
+  FeatureOptions options =
+      ConventionalFeatureOptions(FromName<SmoothnessFormula>(FLAGS_smoothness));
+  options.smoothness.neighborhood = FromName<SmoothnessNeighborhood>(FLAGS_smoothness_neighborhood);
   options.smoothness.ring_points_per_side = FLAGS_ring_points_per_side;
   RequireFlag(FLAGS_smoothness_neighbors <= 1000, "smoothness_neighbors",
               std::to_string(FLAGS_smoothness_neighbors), "at most 1000");

@@ -35,8 +35,8 @@ LocalFitOptions LocalFitFromFlags() {
   options.eigenvalue_ratio = RequireAtLeastZero("fit_eigenvalue_ratio", FLAGS_fit_eigenvalue_ratio);
   options.max_smallest_eigenvalue_m2 =
       RequireAtLeastZero("fit_max_smallest_eigenvalue_m2", FLAGS_fit_max_smallest_eigenvalue_m2);
-  options.eigenvalue_scale = EigenvalueScaleFromName(FLAGS_fit_eigenvalue_scale);
-  options.anchor = FitAnchorFromName(FLAGS_fit_anchor);
+  options.eigenvalue_scale = FromName<EigenvalueScale>(FLAGS_fit_eigenvalue_scale);
+  options.anchor = FromName<FitAnchor>(FLAGS_fit_anchor);
   options.max_neighbor_distance_m =
       RequireAtLeastZero("fit_max_neighbor_distance_m", FLAGS_fit_max_neighbor_distance_m);
   options.triangle_leg_m = FLAGS_patch_leg_m;

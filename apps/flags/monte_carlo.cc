@@ -50,7 +50,7 @@ MonteCarloOptions MonteCarloFromFlags() {
   options.scene = FLAGS_scene;
   options.seed = SeedFromFlags();
   options.lidar = LidarFromFlags();
-  options.sensor = static_cast<Sensor>(IndexOfName("sensor", FLAGS_sensor, {"fixed", "redrawn"}));
+  options.sensor = FromName<Sensor>(FLAGS_sensor);
   options.metrics = MetricsFromFlags();
   options.preparation = PreparationFromFlags(options.metrics);
   options.objective = ObjectiveSetFromFlags();

@@ -41,7 +41,7 @@ namespace icpscape {
 
 void SetDefaultsOfMode() {
   const std::vector<std::string> metrics = MetricsFromFlags();
-  if (OdometryModeFromName(FLAGS_mode) == OdometryMode::kScanToMap) {
+  if (FromName<OdometryMode>(FLAGS_mode) == OdometryMode::kScanToMap) {
     if (std::none_of(metrics.begin(), metrics.end(), NeedsFeatures)) {
       SetFlagDefault("voxel_m", "0.25");
     }
@@ -54,7 +54,7 @@ void SetDefaultsOfMode() {
 
 OdometryOptions OdometryFromFlags() {
   OdometryOptions options;
-  options.mode = OdometryModeFromName(FLAGS_mode);
+  options.mode = FromName<OdometryMode>(FLAGS_mode);
   options.metrics = MetricsFromFlags();
   options.weights = WeightsFromFlags();
   options.preparation = PreparationFromFlags(options.metrics);

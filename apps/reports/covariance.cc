@@ -92,7 +92,7 @@ void ReportCovariances(const std::string& metric, const std::vector<EstimatedCov
                        Table* table) {
   std::printf("standard deviations   rx (mdeg)       ry       rz  tx (mm)       ty       tz\n");
   for (const EstimatedCovariance& entry : all) {
-    const char* name = EstimatorName(entry.estimator);
+    const char* name = NameOf(entry.estimator);
     const Mat6 values =
         entry.covariance.value_or(Mat6(Mat6::Constant(std::numeric_limits<double>::quiet_NaN())));
     const Vec6 deviation = values.diagonal().cwiseSqrt();
@@ -141,7 +141,7 @@ void ReportVerdicts(const std::string& metric, const std::vector<Verdict>& verdi
                                       verdict.source,
                                       Number(verdict.value),
                                       Number(verdict.threshold),
-                                      LocalizabilityName(verdict.localizability)};
+                                      NameOf(verdict.localizability)};
       AppendNumbers(verdict.direction, &row);
       table->AddRow(std::move(row));
     }
@@ -154,8 +154,7 @@ void ReportVerdicts(const std::string& metric, const std::vector<Verdict>& verdi
 
 void ListDraws(const std::string& metric, const std::vector<DrawResult>& draws, Table* table) {
   for (std::size_t i = 0; i < draws.size(); ++i) {
-    std::vector<std::string> row = {metric, std::to_string(i),
-                                    TerminationName(draws[i].termination),
+    std::vector<std::string> row = {metric, std::to_string(i), NameOf(draws[i].termination),
                                     std::to_string(draws[i].iterations)};
     AppendNumbers(draws[i].usable ? draws[i].error
                                   : Vec6(Vec6::Constant(std::numeric_limits<double>::quiet_NaN())),
@@ -177,7 +176,7 @@ void CovarianceReport::AddPair(const std::string& metric, const RegistrationUnce
                                double cluster_m, Manifest* manifest) {
   const MinimizerSummary& summary = result.registration;
   std::printf("\n%s: %s after %zu steps; %ld pairs, %ld cubes of %g m\n", metric.c_str(),
-              TerminationName(summary.termination), summary.iterates.size() - 1, result.sums.pairs,
+              NameOf(summary.termination), summary.iterates.size() - 1, result.sums.pairs,
               result.sums.clusters, cluster_m);
   ReportCovariances(metric, result.covariances, &covariances_);
   ReportDirections(metric, result.directions, &directions_);
@@ -221,7 +220,7 @@ void CovarianceReport::AddDraws(const std::string& metric, const std::vector<Dra
   std::printf(
       "  NEES (ideally 6):    about mean  sd too small by  about truth   draws  95 %% bounds\n");
   for (const EstimatorCalibration& entry : calibration.estimators) {
-    const char* name = EstimatorName(entry.estimator);
+    const char* name = NameOf(entry.estimator);
     if (entry.draws < 2) {
       std::printf("  %-19s %11s %37ld\n", name, "none", entry.draws);
       continue;

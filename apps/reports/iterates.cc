@@ -91,8 +91,7 @@ void ReportEnds(const std::vector<MetricIterates>& all, const PathSection& secti
     }
     const PathProjection end = Project(summary.T_target_source(), section);
     std::printf("%-18s %6zu %9.4f %12.4f %14.4f  %s\n", metric.c_str(), summary.iterates.size() - 1,
-                end.u, end.off_path_m, end.off_path_rad * kDegrees,
-                TerminationName(summary.termination));
+                end.u, end.off_path_m, end.off_path_rad * kDegrees, NameOf(summary.termination));
     manifest->SetResult("iterates_end_u_" + metric, end.u);
     manifest->SetResult("iterates_end_off_path_m_" + metric, end.off_path_m);
   }

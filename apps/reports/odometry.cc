@@ -25,7 +25,7 @@ void WriteFrames(const ScanSequence& sequence, const std::vector<FrameRecord>& r
     const FrameResult& r = records[i].result;
     const Vec3& t = r.T_world_lidar.t();
     frames.AddRow({std::to_string(i), sequence.scans[i].name, Number(sequence.times_s[i]),
-                   r.registered ? "1" : "0", i == 0 ? "first" : TerminationName(r.termination),
+                   r.registered ? "1" : "0", i == 0 ? "first" : NameOf(r.termination),
                    std::to_string(r.iterations), std::to_string(r.n), Number(r.rmse),
                    Number(r.gate_m), std::to_string(r.points), std::to_string(r.map_points),
                    Number(r.motion.t().norm()), Number(r.motion.LogRotation().norm() * kDegrees),

@@ -29,10 +29,10 @@ void ReportPose(const std::string& what, const std::string& name, const SE3d& T,
 void ReportRegistration(const std::string& name, const MinimizerSummary& summary, Run* run) {
   PrintIterates(summary);
   WriteIterates({{name, summary}}, std::nullopt, run);
-  std::printf("%s: %s\nfinal cost: %s\n", TerminationName(summary.termination),
-              summary.message.c_str(), Number(summary.final_cost()).c_str());
+  std::printf("%s: %s\nfinal cost: %s\n", NameOf(summary.termination), summary.message.c_str(),
+              Number(summary.final_cost()).c_str());
   Manifest* const manifest = run->manifest();
-  manifest->SetResult("termination", TerminationName(summary.termination));
+  manifest->SetResult("termination", NameOf(summary.termination));
   manifest->SetResult("final_cost", summary.final_cost());
   manifest->SetResult("matching_passes", summary.matching_passes);
   ReportPose("motion", "motion", summary.T_target_source(), manifest);
@@ -47,7 +47,7 @@ void ReportStarts(const std::vector<StartResult>& results, const RandomStartOpti
     const StartResult& r = results[i];
     csv.AddRow({std::to_string(i), Number(r.start_m), Number(r.start_rad * kDegrees),
                 Number(r.end_m), Number(r.end_rad * kDegrees), std::to_string(r.iterations),
-                TerminationName(r.termination), r.success ? "1" : "0"});
+                NameOf(r.termination), r.success ? "1" : "0"});
   }
   csv.WriteCsv(run->File("starts.csv"));
   const auto successes =

@@ -138,11 +138,8 @@ void ReportPoseErrors(const std::vector<NamedTrajectory>& trajectories, int rpe_
              "mean_deg", "median_deg", "max_deg"});
   std::printf("\n%-37s %9s %9s %9s %9s   %9s %9s %9s %9s\n", "sequence, error", "RMSE (m)", "mean",
               "median", "max", "RMSE (deg)", "mean", "median", "max");
-  const std::pair<Alignment, const char*> alignments[] = {{Alignment::kNone, "none"},
-                                                          {Alignment::kFirstPose, "first_pose"},
-                                                          {Alignment::kRigid, "rigid"}};
   for (const auto& [name, pair] : trajectories) {
-    for (const auto& [alignment, alignment_name] : alignments) {
+    for (const Alignment alignment : AllOf<Alignment>()) {
       const std::optional<SE3d> T_truth_estimate = AlignmentOf(pair, alignment);
       if (!T_truth_estimate) {
         std::printf("%s: its positions lie on one line; a rigid alignment needs more.\n",
@@ -150,8 +147,8 @@ void ReportPoseErrors(const std::vector<NamedTrajectory>& trajectories, int rpe_
         continue;
       }
       const PoseErrors errors = AbsoluteErrors(pair, *T_truth_estimate);
-      AddPoseErrors(name, "ATE", alignment_name, errors, &csv);
-      manifest->SetResult("ate_rmse_m_" + std::string(alignment_name) + "_" + name,
+      AddPoseErrors(name, "ATE", NameOf(alignment), errors, &csv);
+      manifest->SetResult("ate_rmse_m_" + std::string(NameOf(alignment)) + "_" + name,
                           Summarize(errors.translation_m).rmse);
     }
     const PoseErrors errors = RelativeErrors(pair, rpe_frames);

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "src/cloud/point_cloud.h"
+#include "src/common/names.h"
 
 namespace icpscape {
 
@@ -13,6 +14,11 @@ enum class SmoothnessNeighborhood {
   kRing,      ///< The points before and after it on its scan ring [LOAM; A-LOAM].
   kKNearest,  ///< The k nearest other points of the cloud.
   kRadius,    ///< All other points within a radius.
+};
+template <>
+struct Names<SmoothnessNeighborhood> {
+  static constexpr const char* kWhat = "smoothness neighbourhood";
+  static constexpr const char* kNames[] = {"ring", "k_nearest", "radius"};
 };
 
 /// How the surrounding points become one number s_i; small on planes, large on edges.
@@ -23,6 +29,11 @@ enum class SmoothnessFormula {
   kALoam,
   /// s_i = (sum_j (|p_i| - |p_j|))^2, m^2: range differences, as LIO-SAM computes it.
   kLioSam,
+};
+template <>
+struct Names<SmoothnessFormula> {
+  static constexpr const char* kWhat = "smoothness";
+  static constexpr const char* kNames[] = {"printed", "a_loam", "lio_sam"};
 };
 
 struct SmoothnessOptions {

@@ -145,30 +145,6 @@ CovarianceSums SumForCovariance(const Objective& objective, const SE3d& T, const
   return sums;
 }
 
-const char* EstimatorName(Estimator estimator) {
-  switch (estimator) {
-    case Estimator::kGaussNewton:
-      return "gauss_newton";
-    case Estimator::kCensi:
-      return "censi";
-    case Estimator::kCensiRingBias:
-      return "censi_ring_bias";
-    case Estimator::kSandwich:
-      return "sandwich";
-    case Estimator::kSandwichClustered:
-      return "sandwich_clustered";
-    case Estimator::kSandwichRematched:
-      return "sandwich_rematched";
-  }
-  return "";
-}
-
-std::vector<Estimator> AllEstimators() {
-  return {Estimator::kGaussNewton,       Estimator::kCensi,
-          Estimator::kCensiRingBias,     Estimator::kSandwich,
-          Estimator::kSandwichClustered, Estimator::kSandwichRematched};
-}
-
 std::optional<Mat6> EstimateCovariance(Estimator estimator, const CovarianceSums& sums,
                                        const CovarianceOptions& options) {
   // H decides always: what A or B have beyond it is no information about the pose.

@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "src/common/names.h"
 #include "src/objective/objective.h"
 
 namespace icpscape {
@@ -78,9 +79,13 @@ enum class Estimator {
   kSandwichClustered,
   kSandwichRematched,
 };
-constexpr int kEstimators = 6;
-const char* EstimatorName(Estimator estimator);
-std::vector<Estimator> AllEstimators();
+template <>
+struct Names<Estimator> {
+  static constexpr const char* kWhat = "estimator";
+  static constexpr const char* kNames[] = {"gauss_newton",       "censi",
+                                           "censi_ring_bias",    "sandwich",
+                                           "sandwich_clustered", "sandwich_rematched"};
+};
 
 /// The covariance; nothing where the pairs do not determine all six degrees of freedom: in such a
 /// direction the variance is infinite, and a pseudo-inverse would call it 0. A matrix counts as

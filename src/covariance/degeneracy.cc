@@ -52,18 +52,6 @@ EigenDirections EigenDirectionsOf(const Mat6& hessian, double length_scale_m) {
   return {length_scale_m, solver.eigenvalues(), solver.eigenvectors()};
 }
 
-const char* LocalizabilityName(Localizability localizability) {
-  switch (localizability) {
-    case Localizability::kFull:
-      return "full";
-    case Localizability::kPartial:
-      return "partial";
-    case Localizability::kNone:
-      return "none";
-  }
-  return "";
-}
-
 std::vector<PlaneConstraint> PlaneConstraintsOf(const Objective& objective, const SE3d& T,
                                                 const Matches& matches) {
   const bool normals = (objective.needs() & kTargetNormal) != 0;

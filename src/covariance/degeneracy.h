@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "src/common/names.h"
 #include "src/objective/objective.h"
 
 namespace icpscape {
@@ -23,7 +24,11 @@ EigenDirections EigenDirectionsOf(const Mat6& hessian, double length_scale_m);
 
 /// How well a direction is determined, in the words of X-ICP.
 enum class Localizability { kFull, kPartial, kNone };
-const char* LocalizabilityName(Localizability localizability);
+template <>
+struct Names<Localizability> {
+  static constexpr const char* kWhat = "localizability";
+  static constexpr const char* kNames[] = {"full", "partial", "none"};
+};
 
 /// What one published rule says about one direction.
 struct Verdict {

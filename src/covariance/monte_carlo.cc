@@ -65,7 +65,7 @@ class Experiment {
     result.iterations = static_cast<int>(summary.iterates.size()) - 1;
     result.error = (T_truth_.Inverse() * T).Log();
     const CovarianceSums sums = SumForCovariance(objective, T, options_.covariance, 1);
-    for (const Estimator estimator : AllEstimators()) {
+    for (const Estimator estimator : AllOf<Estimator>()) {
       result.covariances[static_cast<std::size_t>(estimator)] =
           EstimateCovariance(estimator, sums, options_.covariance);
     }
@@ -118,7 +118,7 @@ Calibration Calibrate(const std::vector<DrawResult>& draws) {
     }
   }
   calibration.errors = StatisticsOf(all_errors);
-  for (const Estimator estimator : AllEstimators()) {
+  for (const Estimator estimator : AllOf<Estimator>()) {
     EstimatorCalibration entry;
     entry.estimator = estimator;
     std::vector<Vec6> errors;

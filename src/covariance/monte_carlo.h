@@ -9,6 +9,7 @@
 #include <string>
 #include <vector>
 
+#include "src/common/names.h"
 #include "src/covariance/consistency.h"
 #include "src/covariance/registration_uncertainty.h"
 #include "src/minimizer/random_starts.h"
@@ -21,6 +22,11 @@ namespace icpscape {
 enum class Sensor {
   kFixed,    ///< One lidar: its lasers' constant errors are those of the seed in every draw.
   kRedrawn,  ///< Another copy of the same model in every draw, the same for both scans.
+};
+template <>
+struct Names<Sensor> {
+  static constexpr const char* kWhat = "sensor";
+  static constexpr const char* kNames[] = {"fixed", "redrawn"};
 };
 
 struct MonteCarloOptions {
@@ -46,7 +52,7 @@ struct DrawResult {
   bool usable = false;
   int iterations = 0;
   /// By Estimator.
-  std::array<std::optional<Mat6>, kEstimators> covariances;
+  std::array<std::optional<Mat6>, std::size(Names<Estimator>::kNames)> covariances;
 };
 
 /// Registers a simulated pair again and again. The world and the motion stay; noise, scan phase

@@ -44,7 +44,7 @@ RegistrationUncertainty RegisterWithUncertainty(const Objective& objective, cons
   result.sums = SumForCovariance(objective, T, options, threads);
   const bool is_determined =
       EstimateCovariance(Estimator::kGaussNewton, result.sums, options).has_value();
-  for (const Estimator estimator : AllEstimators()) {
+  for (const Estimator estimator : AllOf<Estimator>()) {
     EstimatedCovariance entry;
     entry.estimator = estimator;
     entry.covariance = EstimateCovariance(estimator, result.sums, options);

@@ -28,7 +28,7 @@ struct EstimatedCovariance {
 struct RegistrationUncertainty {
   MinimizerSummary registration;
   CovarianceSums sums;                           ///< At the solution, as all that follows.
-  std::vector<EstimatedCovariance> covariances;  ///< In the order of AllEstimators.
+  std::vector<EstimatedCovariance> covariances;  ///< In the order of AllOf<Estimator>.
   EigenDirections directions;                    ///< Of the Gauss-Newton Hessian.
   std::vector<Verdict> verdicts;                 ///< Of JudgeDegeneracy.
 };

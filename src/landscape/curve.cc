@@ -74,10 +74,6 @@ CurveColumn CurveColumnFromName(const std::string& name) {
   return kCurveColumns[IndexOfName("column", name, names)];
 }
 
-PatchOffset PatchOffsetFromName(const std::string& name) {
-  return static_cast<PatchOffset>(IndexOfName("patch offset", name, {"per_term", "total", "none"}));
-}
-
 const CurvePoint& Curve::Minimum(double CurvePoint::*value) const {
   return *std::min_element(
       points.begin(), points.end(),

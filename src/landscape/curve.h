@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "src/common/names.h"
 #include "src/landscape/path.h"
 #include "src/objective/objective.h"
 
@@ -45,8 +46,11 @@ CurveColumn CurveColumnFromName(const std::string& name);
 /// What is subtracted from planar_to_patch's sum, "since the metric becomes one" at a match [paper
 /// sec. 4.2]: one from each term, one from the whole, or nothing.
 enum class PatchOffset { kPerTerm, kTotal, kNone };
-/// Names in the order of the enum: per_term, total, none. Throws UsageError for others.
-PatchOffset PatchOffsetFromName(const std::string& name);
+template <>
+struct Names<PatchOffset> {
+  static constexpr const char* kWhat = "patch offset";
+  static constexpr const char* kNames[] = {"per_term", "total", "none"};
+};
 
 /// The objective of one metric along a path.
 struct Curve {

@@ -21,15 +21,6 @@ Vec6 BicycleTwist(const SE3d& motion) {
 
 }  // namespace
 
-const std::vector<std::string>& PathKindNames() {
-  static const std::vector<std::string> names = {"lerp_slerp", "geodesic", "bicycle"};
-  return names;
-}
-
-PathKind PathKindFromName(const std::string& name) {
-  return static_cast<PathKind>(IndexOfName("path", name, PathKindNames()));
-}
-
 Path::Path(const SE3d& T_0, const SE3d& T_1, PathKind kind)
     : kind_(kind), T_0_(T_0), T_1_(T_1), remainder_(Vec6::Zero()) {
   const SE3d motion = T_0.Inverse() * T_1;

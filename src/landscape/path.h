@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "residuals/lie.h"
+#include "src/common/names.h"
 
 namespace icpscape {
 
@@ -20,9 +21,11 @@ enum class PathKind {
   kBicycle,
 };
 
-/// Names in the order of the enum: lerp_slerp, geodesic, bicycle. Throws UsageError for others.
-PathKind PathKindFromName(const std::string& name);
-const std::vector<std::string>& PathKindNames();
+template <>
+struct Names<PathKind> {
+  static constexpr const char* kWhat = "path";
+  static constexpr const char* kNames[] = {"lerp_slerp", "geodesic", "bicycle"};
+};
 
 /// A path of poses T_u through T_0 (u = 0) and T_1 (u = 1), defined for every real u: outside
 /// [0, 1] it extrapolates. The shorter way round is taken; R_0^T R_1 must turn by less than pi.

@@ -10,25 +10,6 @@
 
 namespace icpscape {
 
-const std::vector<std::string>& EigenvalueScaleNames() {
-  static const std::vector<std::string> names = {"scatter", "over_n", "over_n_minus_one"};
-  return names;
-}
-
-EigenvalueScale EigenvalueScaleFromName(const std::string& name) {
-  return static_cast<EigenvalueScale>(
-      IndexOfName("eigenvalue scale", name, EigenvalueScaleNames()));
-}
-
-const std::vector<std::string>& FitAnchorNames() {
-  static const std::vector<std::string> names = {"centroid", "nearest"};
-  return names;
-}
-
-FitAnchor FitAnchorFromName(const std::string& name) {
-  return static_cast<FitAnchor>(IndexOfName("fit anchor", name, FitAnchorNames()));
-}
-
 LocalFitMatcher::LocalFitMatcher(Shape shape, SearchableCloud source, SearchableCloud target,
                                  const LocalFitOptions& options)
     : Matcher(std::move(source), std::move(target)), shape_(shape), options_(options) {

@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "src/common/names.h"
 #include "src/matching/matcher.h"
 
 namespace icpscape {
@@ -13,14 +14,20 @@ namespace icpscape {
 /// threshold in m^2. The paper does not say; over five points with 2 cm of noise the rule
 /// lambda_3 < 1e-4 lets through 12, 47 or 40 % of the patches.
 enum class EigenvalueScale { kScatter, kOverN, kOverNMinusOne };
-EigenvalueScale EigenvalueScaleFromName(const std::string& name);
-const std::vector<std::string>& EigenvalueScaleNames();
+template <>
+struct Names<EigenvalueScale> {
+  static constexpr const char* kWhat = "eigenvalue scale";
+  static constexpr const char* kNames[] = {"scatter", "over_n", "over_n_minus_one"};
+};
 
 /// Which point stands for the line or patch: the neighbours' mean (LOAM's mapping stage, A-LOAM) or
 /// the nearest of them.
 enum class FitAnchor { kCentroid, kNearest };
-FitAnchor FitAnchorFromName(const std::string& name);
-const std::vector<std::string>& FitAnchorNames();
+template <>
+struct Names<FitAnchor> {
+  static constexpr const char* kWhat = "fit anchor";
+  static constexpr const char* kNames[] = {"centroid", "nearest"};
+};
 
 /// When neighbours count as a line or a patch; the defaults are the paper's (sec. 4.2).
 struct LocalFitOptions {

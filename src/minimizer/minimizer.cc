@@ -225,28 +225,6 @@ MinimizerSummary MinimizeEveryEvaluation(Parameters x, Loop loop) {
 
 }  // namespace
 
-const char* TerminationName(Termination termination) {
-  switch (termination) {
-    case Termination::kConverged:
-      return "converged";
-    case Termination::kCostChange:
-      return "cost_change";
-    case Termination::kCostReached:
-      return "cost_reached";
-    case Termination::kNoDescent:
-      return "no_descent";
-    case Termination::kMaxIterations:
-      return "max_iterations";
-    case Termination::kStopped:
-      return "stopped";
-    case Termination::kNoCorrespondences:
-      return "no_correspondences";
-    case Termination::kFailure:
-      return "failure";
-  }
-  return "";
-}
-
 MinimizerSummary Minimize(const JointObjective& objective, const SE3d& T_start,
                           const MinimizerOptions& options) {
   CHECK(options.free != DofMask{}) << "no direction is free";

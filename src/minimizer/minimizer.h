@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "residuals/dof_mask.h"
+#include "src/common/names.h"
 #include "src/objective/joint_objective.h"
 
 namespace icpscape {
@@ -80,7 +81,13 @@ enum class Termination {
   kNoCorrespondences,  ///< A pose had no usable pair.
   kFailure,            ///< The solver gave up; the message says why.
 };
-const char* TerminationName(Termination termination);
+template <>
+struct Names<Termination> {
+  static constexpr const char* kWhat = "termination";
+  static constexpr const char* kNames[] = {"converged",          "cost_change",    "cost_reached",
+                                           "no_descent",         "max_iterations", "stopped",
+                                           "no_correspondences", "failure"};
+};
 
 struct MinimizerSummary {
   /// The first is the start, the last the result.

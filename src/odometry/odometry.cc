@@ -29,11 +29,6 @@ JointObjective Joint(const ObjectiveSet& set, const std::vector<double>& weights
 
 }  // namespace
 
-OdometryMode OdometryModeFromName(const std::string& name) {
-  return static_cast<OdometryMode>(
-      IndexOfName("odometry mode", name, {"scan_to_scan", "scan_to_map", "two_stage"}));
-}
-
 void OdometryOptions::Check() const {
   if (!weights.empty() && weights.size() != metrics.size()) {
     throw UsageError(std::to_string(weights.size()) + " weights for " +

@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "src/common/names.h"
 #include "src/filtering/filter_chain.h"
 #include "src/minimizer/minimizer.h"
 #include "src/objective/objective_set.h"
@@ -20,9 +21,11 @@ enum class OdometryMode {
   kScanToMap,   ///< A map of the scans before it.
   kTwoStage,    ///< The scan before it, and every few scans that result to the map [LOAM].
 };
-/// Names in the order of the enum: scan_to_scan, scan_to_map, two_stage. Throws UsageError for
-/// others.
-OdometryMode OdometryModeFromName(const std::string& name);
+template <>
+struct Names<OdometryMode> {
+  static constexpr const char* kWhat = "odometry mode";
+  static constexpr const char* kNames[] = {"scan_to_scan", "scan_to_map", "two_stage"};
+};
 
 struct OdometryOptions {
   OdometryMode mode = OdometryMode::kScanToMap;

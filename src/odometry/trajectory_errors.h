@@ -5,6 +5,7 @@
 #include <optional>
 #include <vector>
 
+#include "src/common/names.h"
 #include "src/io/trajectory.h"
 
 namespace icpscape {
@@ -71,6 +72,11 @@ enum class Alignment {
   kNone,       ///< As given.
   kFirstPose,  ///< The first poses coincide.
   kRigid,      ///< Least sum of squared distances of the positions [Umeyama 1991], without scale.
+};
+template <>
+struct Names<Alignment> {
+  static constexpr const char* kWhat = "alignment";
+  static constexpr const char* kNames[] = {"none", "first_pose", "rigid"};
 };
 
 /// T_truth_estimate, from the estimate's world to the truth's. Nothing for kRigid where either

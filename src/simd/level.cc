@@ -25,18 +25,6 @@ std::vector<SimdLevel> DetectLevels() {
 
 }  // namespace
 
-const char* SimdLevelName(SimdLevel level) {
-  switch (level) {
-    case SimdLevel::kBaseline:
-      return "baseline";
-    case SimdLevel::kAvx2:
-      return "avx2";
-    case SimdLevel::kAvx512:
-      return "avx512";
-  }
-  return "";
-}
-
 const std::vector<SimdLevel>& SupportedSimdLevels() {
   static const std::vector<SimdLevel> levels = DetectLevels();
   return levels;
@@ -49,10 +37,10 @@ SimdLevel ActiveSimdLevel() {
   }
   std::vector<std::string> names;
   for (const SimdLevel level : SupportedSimdLevels()) {
-    if (SimdLevelName(level) == std::string(wanted)) {
+    if (NameOf(level) == std::string(wanted)) {
       return level;
     }
-    names.emplace_back(SimdLevelName(level));
+    names.emplace_back(NameOf(level));
   }
   throw UsageError("ICPSCAPE_SIMD=" + std::string(wanted) + ": expected one of " + Join(names) +
                    ", which this machine can run.");

@@ -5,6 +5,8 @@
 #include <string>
 #include <vector>
 
+#include "src/common/names.h"
+
 namespace icpscape {
 
 /// The instruction sets that hot loops are compiled for, the narrowest first. All of them compute
@@ -14,9 +16,11 @@ enum class SimdLevel {
   kAvx2,
   kAvx512,  ///< F, BW, DQ and VL.
 };
-
-/// baseline, avx2, avx512.
-const char* SimdLevelName(SimdLevel level);
+template <>
+struct Names<SimdLevel> {
+  static constexpr const char* kWhat = "SIMD level";
+  static constexpr const char* kNames[] = {"baseline", "avx2", "avx512"};
+};
 
 /// The levels that this machine can run, narrowest first.
 const std::vector<SimdLevel>& SupportedSimdLevels();

@@ -71,6 +71,32 @@ TEST(AppsHelp, PrintsNumbersAsOneTypesThem) {
   }
 }
 
+// A flag that takes one of several names: its help has every name that its error message lists.
+TEST(AppsHelp, NamesEveryChoice) {
+  const std::pair<const char*, const char*> choices[] = {
+      {"landscape", "path"},         {"landscape", "patch_offset"},
+      {"landscape", "smoothness"},   {"landscape", "smoothness_neighborhood"},
+      {"landscape", "feature_caps"}, {"landscape", "fit_eigenvalue_scale"},
+      {"landscape", "fit_anchor"},   {"register", "loss"},
+      {"odometry", "mode"},          {"odometry", "prediction"},
+      {"covariance", "sensor"},
+  };
+  for (const auto& [app, flag] : choices) {
+    const Outcome refused =
+        RunProgram(app, {"--scene=right_turn", std::string("--") + flag + "=x"});
+    std::smatch listed;
+    ASSERT_TRUE(std::regex_search(refused.err, listed, std::regex("expected one of ([^.]*)\\.")))
+        << flag << ": " << refused.err;
+    const std::string help = RunProgram(app, {"--help"}).out;
+    const std::size_t begin = help.find(std::string("--") + flag + "  (");
+    const std::string text = help.substr(begin, help.find("\n  --", begin) - begin);
+    std::istringstream names(listed[1]);
+    for (std::string name; std::getline(names >> std::ws, name, ',');) {
+      EXPECT_THAT(text, HasSubstr(name)) << flag;
+    }
+  }
+}
+
 TEST(AppsHelp, MeansTheSameEverywhere) {
   for (const std::string app : {"landscape", "register", "simulate", "paper_figures", "filter_bias",
                                 "covariance", "odometry", "evaluate"}) {

@@ -21,8 +21,8 @@ void AddContext(const BenchmarkPair& pair) {
   benchmark::AddCustomContext("pair", pair.title);
   benchmark::AddCustomContext("source_points", std::to_string(pair.source.size()));
   benchmark::AddCustomContext("target_points", std::to_string(pair.target.size()));
-  benchmark::AddCustomContext("simd", SimdLevelName(ActiveSimdLevel()));
-  benchmark::AddCustomContext("widest_simd", SimdLevelName(SupportedSimdLevels().back()));
+  benchmark::AddCustomContext("simd", NameOf(ActiveSimdLevel()));
+  benchmark::AddCustomContext("widest_simd", NameOf(SupportedSimdLevels().back()));
   benchmark::AddCustomContext("rounds", std::to_string(FLAGS_rounds));
   benchmark::AddCustomContext("icpscape", Version());
   benchmark::AddCustomContext("compiler", std::string("g++ ") + __VERSION__);

@@ -97,7 +97,7 @@ void Run() {
   const BenchmarkPair pair = LoadPair({"symmetric"}, &manifest);
   benchmark::AddCustomContext("source_points", std::to_string(pair.source.size()));
   benchmark::AddCustomContext("target_points", std::to_string(pair.target.size()));
-  benchmark::AddCustomContext("widest_simd", SimdLevelName(ActiveSimdLevel()));
+  benchmark::AddCustomContext("widest_simd", NameOf(ActiveSimdLevel()));
   benchmark::AddCustomContext("icpscape", Version());
   benchmark::AddCustomContext("compiler", std::string("g++ ") + __VERSION__);
   AddAll(pair);

@@ -234,10 +234,10 @@ TEST_F(SmallRoom, WorksUnderALossAndWithEveryEstimator) {
   const Matches matches = objective.Match(kMotion, 1);
   const CovarianceSums sums =
       SumForCovariance(objective, FrozenMinimum(objective, matches, kMotion), {}, 1);
-  for (const Estimator estimator : AllEstimators()) {
+  for (const Estimator estimator : AllOf<Estimator>()) {
     const std::optional<Mat6> covariance = EstimateCovariance(estimator, sums, CovarianceOptions());
-    ASSERT_TRUE(covariance) << EstimatorName(estimator);
-    EXPECT_GT(covariance->llt().matrixL().determinant(), 0) << EstimatorName(estimator);
+    ASSERT_TRUE(covariance) << NameOf(estimator);
+    EXPECT_GT(covariance->llt().matrixL().determinant(), 0) << NameOf(estimator);
   }
 }
 
@@ -311,7 +311,7 @@ TEST(Covariance, UndeterminedProblemsHaveNone) {
   const Objective few("point_to_plane", few_matcher);
   const CovarianceSums few_sums = SumForCovariance(few, T, {}, 1);
   EXPECT_EQ(few_sums.rows, 3);
-  for (const Estimator estimator : AllEstimators()) {
+  for (const Estimator estimator : AllOf<Estimator>()) {
     EXPECT_FALSE(EstimateCovariance(estimator, sums, CovarianceOptions()));
     EXPECT_FALSE(EstimateCovariance(estimator, few_sums, CovarianceOptions()));
     EXPECT_FALSE(EstimateCovariance(estimator, CovarianceSums(), CovarianceOptions()));

@@ -34,7 +34,7 @@ TEST(MonteCarlo, IsTheSameForAnyNumberOfThreads) {
     for (std::size_t i = 0; i < one[m].size(); ++i) {
       EXPECT_TRUE(one[m][i].usable);
       EXPECT_EQ(one[m][i].error, two[m][i].error);
-      for (int e = 0; e < kEstimators; ++e) {
+      for (std::size_t e = 0; e < AllOf<Estimator>().size(); ++e) {
         ASSERT_TRUE(one[m][i].covariances[static_cast<std::size_t>(e)]);
         EXPECT_EQ(*one[m][i].covariances[static_cast<std::size_t>(e)],
                   *two[m][i].covariances[static_cast<std::size_t>(e)]);
@@ -81,7 +81,7 @@ TEST(MonteCarlo, ClusteredSandwichesAreWithinAFactorOfTwoAndTheOthersAreOverConf
   const Calibration calibration = Calibrate(RunMonteCarlo(options)[0]);
   EXPECT_EQ(calibration.failed, 0);
   EXPECT_EQ(calibration.errors.n, 24);
-  ASSERT_EQ(calibration.estimators.size(), static_cast<std::size_t>(kEstimators));
+  ASSERT_EQ(calibration.estimators.size(), AllOf<Estimator>().size());
   const auto nees = [&](Estimator estimator) {
     const EstimatorCalibration& entry = calibration.estimators[static_cast<std::size_t>(estimator)];
     EXPECT_EQ(entry.draws, 24);
@@ -90,8 +90,8 @@ TEST(MonteCarlo, ClusteredSandwichesAreWithinAFactorOfTwoAndTheOthersAreOverConf
     return entry.about_mean.mean;
   };
   for (const Estimator estimator : {Estimator::kSandwichClustered, Estimator::kSandwichRematched}) {
-    EXPECT_GT(nees(estimator), 3) << EstimatorName(estimator);
-    EXPECT_LT(nees(estimator), 12) << EstimatorName(estimator);
+    EXPECT_GT(nees(estimator), 3) << NameOf(estimator);
+    EXPECT_LT(nees(estimator), 12) << NameOf(estimator);
   }
   EXPECT_GT(nees(Estimator::kGaussNewton), 24);
   EXPECT_GT(nees(Estimator::kCensi), 6000);

@@ -22,7 +22,7 @@ TEST(RegistrationUncertainty, IsThatOfTheSolution) {
   EXPECT_LT((kMotion.Inverse() * T).t().norm(), 0.01);
   // The covariance is of the size of the actual error, which is not known to the function.
   const Vec6 error = (kMotion.Inverse() * T).Log();
-  ASSERT_EQ(result.covariances.size(), AllEstimators().size());
+  ASSERT_EQ(result.covariances.size(), AllOf<Estimator>().size());
   const Mat6 gauss_newton = result.covariances[0].covariance.value();
   EXPECT_LT(error.dot(gauss_newton.inverse() * error), 10 * 6);
   EXPECT_GT(gauss_newton(3, 3), 1e-10);

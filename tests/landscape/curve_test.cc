@@ -163,12 +163,12 @@ TEST(Curve, ReadingsOfTheRmse) {
     }
   }
   EXPECT_EQ(CurveColumnFromName("rms_residual").value, &CurvePoint::rms_residual);
-  EXPECT_EQ(PatchOffsetFromName("per_term"), PatchOffset::kPerTerm);
-  EXPECT_EQ(PatchOffsetFromName("total"), PatchOffset::kTotal);
-  EXPECT_EQ(PatchOffsetFromName("none"), PatchOffset::kNone);
+  EXPECT_EQ(FromName<PatchOffset>("per_term"), PatchOffset::kPerTerm);
+  EXPECT_EQ(FromName<PatchOffset>("total"), PatchOffset::kTotal);
+  EXPECT_EQ(FromName<PatchOffset>("none"), PatchOffset::kNone);
   EXPECT_EQ(CurveOptions().patch_offset, PatchOffset::kPerTerm);
   EXPECT_THROW(CurveColumnFromName("rsme"), UsageError);
-  EXPECT_THROW(PatchOffsetFromName("one"), UsageError);
+  EXPECT_THROW(FromName<PatchOffset>("one"), UsageError);
 }
 
 TEST(Curve, IsBitIdenticalForAnyNumberOfThreads) {

@@ -111,8 +111,8 @@ TEST(BicyclePath, MovesWithTheFrameOfTheTarget) {
 }
 
 TEST(BicyclePath, HasItsName) {
-  EXPECT_EQ(PathKindFromName("bicycle"), PathKind::kBicycle);
-  EXPECT_EQ(PathKindNames().back(), "bicycle");
+  EXPECT_EQ(FromName<PathKind>("bicycle"), PathKind::kBicycle);
+  EXPECT_STREQ(NameOf(AllOf<PathKind>().back()), "bicycle");
 }
 
 TEST(BicyclePath, HasTheLeadOfKittisCar) {

@@ -83,9 +83,9 @@ TEST(Path, TinyAndNoRotation) {
 }
 
 TEST(Path, NamesGoRound) {
-  EXPECT_EQ(PathKindFromName("geodesic"), PathKind::kGeodesic);
-  EXPECT_EQ(PathKindFromName("lerp_slerp"), PathKind::kLerpSlerp);
-  EXPECT_THROW(PathKindFromName("spline"), UsageError);
+  EXPECT_EQ(FromName<PathKind>("geodesic"), PathKind::kGeodesic);
+  EXPECT_EQ(FromName<PathKind>("lerp_slerp"), PathKind::kLerpSlerp);
+  EXPECT_THROW(FromName<PathKind>("spline"), UsageError);
 }
 
 }  // namespace

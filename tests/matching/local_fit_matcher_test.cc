@@ -114,11 +114,11 @@ TEST(LocalFit, DefaultsAreThePapers) {
 }
 
 TEST(LocalFit, NamesGoRound) {
-  EXPECT_EQ(EigenvalueScaleFromName("scatter"), EigenvalueScale::kScatter);
-  EXPECT_EQ(EigenvalueScaleFromName("over_n"), EigenvalueScale::kOverN);
-  EXPECT_EQ(EigenvalueScaleFromName("over_n_minus_one"), EigenvalueScale::kOverNMinusOne);
-  EXPECT_EQ(FitAnchorFromName("centroid"), FitAnchor::kCentroid);
-  EXPECT_EQ(FitAnchorFromName("nearest"), FitAnchor::kNearest);
+  EXPECT_EQ(FromName<EigenvalueScale>("scatter"), EigenvalueScale::kScatter);
+  EXPECT_EQ(FromName<EigenvalueScale>("over_n"), EigenvalueScale::kOverN);
+  EXPECT_EQ(FromName<EigenvalueScale>("over_n_minus_one"), EigenvalueScale::kOverNMinusOne);
+  EXPECT_EQ(FromName<FitAnchor>("centroid"), FitAnchor::kCentroid);
+  EXPECT_EQ(FromName<FitAnchor>("nearest"), FitAnchor::kNearest);
 }
 
 // Lines are no patches, and the triangle has half the area of the square over its legs.
@@ -187,8 +187,8 @@ TEST(LocalFit, GateAndTooFewNeighbors) {
   LocalFitOptions two;
   two.num_neighbors = 2;
   EXPECT_THROW(MatchOne(Shape::kLine, {1, 2, 0}, Pole(), two), UsageError);
-  EXPECT_THROW(EigenvalueScaleFromName("over_k"), UsageError);
-  EXPECT_THROW(FitAnchorFromName("first"), UsageError);
+  EXPECT_THROW(FromName<EigenvalueScale>("over_k"), UsageError);
+  EXPECT_THROW(FromName<FitAnchor>("first"), UsageError);
 }
 
 TEST(LocalFit, IsTheSameForAnyNumberOfThreads) {

@@ -240,9 +240,9 @@ TEST(Odometry, RefusesOptionsThatCannotGoTogether) {
 
 TEST(Odometry, KnowsItsModesByName) {
   for (const OdometryMode mode : kModes) {
-    EXPECT_EQ(OdometryModeFromName(kNames[static_cast<int>(mode)]), mode);
+    EXPECT_EQ(FromName<OdometryMode>(kNames[static_cast<int>(mode)]), mode);
   }
-  EXPECT_THAT(MessageOf<UsageError>([] { OdometryModeFromName("foo"); }),
+  EXPECT_THAT(MessageOf<UsageError>([] { FromName<OdometryMode>("foo"); }),
               HasSubstr("expected one of scan_to_scan, scan_to_map, two_stage"));
 }
 

@@ -15,7 +15,7 @@ namespace icpscape::testing_support {
 /// Runs at this level while it lives.
 class ScopedSimdLevel {
  public:
-  explicit ScopedSimdLevel(SimdLevel level) { setenv("ICPSCAPE_SIMD", SimdLevelName(level), 1); }
+  explicit ScopedSimdLevel(SimdLevel level) { setenv("ICPSCAPE_SIMD", NameOf(level), 1); }
   ~ScopedSimdLevel() { unsetenv("ICPSCAPE_SIMD"); }
   ScopedSimdLevel(const ScopedSimdLevel&) = delete;
   ScopedSimdLevel& operator=(const ScopedSimdLevel&) = delete;
@@ -27,7 +27,7 @@ class EverySimdLevel : public ::testing::TestWithParam<Named<SimdLevel>> {
   static std::vector<Named<SimdLevel>> Levels() {
     std::vector<Named<SimdLevel>> levels;
     for (const SimdLevel level : SupportedSimdLevels()) {
-      levels.push_back({SimdLevelName(level), level});
+      levels.push_back({NameOf(level), level});
     }
     return levels;
   }
