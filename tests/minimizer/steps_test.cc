@@ -126,6 +126,17 @@ TEST_P(StepsInBothModes, GoOnBelowTheTolerancesOfCeres) {
   EXPECT_NEAR(Turntable::AngleAt(summary.T_target_source()), std::acos(0.995), 1e-6);
 }
 
+// Without limits the loop ends where the fit is perfect to the last bit: a result, and no failure.
+TEST_P(StepsInBothModes, EndAtAPerfectFit) {
+  MinimizerOptions options = Options();
+  options.min_step_m = options.min_step_rad = 0;
+  const MinimizerSummary summary = Turntable(0.995).Minimized(0.2, options);
+  EXPECT_TRUE(summary.Usable()) << summary.message;
+  EXPECT_EQ(summary.termination, Termination::kNoDescent);
+  EXPECT_EQ(summary.final_cost(), 0);
+  EXPECT_NEAR(Turntable::AngleAt(summary.T_target_source()), std::acos(0.995), 1e-6);
+}
+
 // A point on a rail along x, and target points along it, each with a plane: where target point i is
 // the closest, the residual is slope_i (x - x_i) + rest_i.
 class Rail {
