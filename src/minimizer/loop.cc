@@ -133,4 +133,9 @@ MinimizerSummary Loop::EndNoDescent() {
   return End(Termination::kNoDescent, "No step lowered the cost any further.");
 }
 
+MinimizerSummary Loop::EndSolverFailure(std::string message) {
+  return summary_.iterates.back().cost == 0 ? EndNoDescent()
+                                            : End(Termination::kFailure, std::move(message));
+}
+
 }  // namespace icpscape::internal

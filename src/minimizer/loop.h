@@ -46,6 +46,8 @@ class Loop {
   MinimizerSummary EndFlat();
   MinimizerSummary EndMaxIterations();
   MinimizerSummary EndNoDescent();
+  /// Where Ceres gave up. At a perfect fit it finds its steps, of length 0, invalid: no failure.
+  MinimizerSummary EndSolverFailure(std::string message);
 
  private:
   using Clock = std::chrono::steady_clock;

@@ -132,8 +132,7 @@ MinimizerSummary MinimizeEveryStep(const JointObjective& objective, Parameters x
     }
     const StepResult step = Step(objective, loop, matches, evaluation, &x);
     if (!step.accepted) {
-      return step.failure.empty() ? loop.EndNoDescent()
-                                  : loop.End(Termination::kFailure, step.failure);
+      return step.failure.empty() ? loop.EndNoDescent() : loop.EndSolverFailure(step.failure);
     }
     // A short step is not taken: it would cost a matching pass to know the objective there.
     if (loop.IsShortStepTo(SE3d::FromParameters(x.data()))) {
@@ -219,7 +218,7 @@ MinimizerSummary MinimizeEveryEvaluation(Parameters x, Loop loop) {
     case ceres::CONVERGENCE:
       return loop.EndNoDescent();
     default:
-      return loop.End(Termination::kFailure, summary.message);
+      return loop.EndSolverFailure(summary.message);
   }
 }
 

@@ -151,12 +151,35 @@ TEST_F(Apps, OffsetIsMeasuredAlongThePath) {
   EXPECT_THAT(outcome.out, HasSubstr("0.0000         0.1000"));
 }
 
+// Point-to-point needs no normals, the limit on their angle does. It leaves out pairs across edges.
 TEST_F(Apps, NormalAngleBringsItsNormals) {
-  EXPECT_EQ(RunProgram("register", Files({"--max_normal_angle_deg=30"})).code, 0);
+  const auto pairs = [&](const std::vector<std::string>& more) {
+    auto arguments = Files({"--metrics=point_to_point"});
+    arguments.insert(arguments.end(), more.begin(), more.end());
+    const Outcome outcome = RunProgram("register", arguments);
+    EXPECT_EQ(outcome.code, 0) << outcome.err;
+    return std::stol(ReadCsv(Path("out/iterates.csv")).back().at("n"));
+  };
+  EXPECT_EQ(pairs({}), 3000);
+  const long within = pairs({"--max_normal_angle_deg=30"});
+  EXPECT_LT(within, 3000);
+  EXPECT_GT(within, 2000);
 }
 
+// The truth of frame 0 to frame 1 is the inverse of the fixture's.
 TEST_F(Apps, FrameZeroHasNoPriorButATarget) {
-  EXPECT_EQ(RunProgram("landscape", Kitti({"--frame=0", "--target_frame=1"})).code, 0);
+  const Outcome outcome =
+      RunProgram("landscape", Kitti({"--frame=0", "--target_frame=1", "--metrics=point_to_plane"}));
+  ASSERT_EQ(outcome.code, 0) << outcome.err;
+  EXPECT_THAT(outcome.out, HasSubstr("000000.bin, 3000 points\ntarget: "));
+  const auto rows = ReadCsv(Path("out/curves.csv"));  // u = -1, 0, 1, 2.
+  ASSERT_EQ(rows.size(), 4U);
+  for (const auto& row : rows) {
+    EXPECT_GE(std::stod(row.at("rmse")), std::stod(rows[2].at("rmse"))) << row.at("u");
+  }
+  ExpectRefusal(RunProgram("landscape",
+                           Kitti({"--frame=0", "--target_frame=1", "--initial=previous_motion"})),
+                1, "expected an input that knows the motion before");
 }
 
 TEST_F(Apps, CapsRecoverTheRingsTheyNeed) {
@@ -164,7 +187,14 @@ TEST_F(Apps, CapsRecoverTheRingsTheyNeed) {
       RunProgram("landscape", {"--scene=right_turn", "--samples=2", "--azimuth_step_deg=1",
                                "--metrics=planar_to_plane", "--smoothness_neighborhood=k_nearest",
                                "--feature_caps=loam", "--out=" + Path("out")});
-  EXPECT_EQ(outcome.code, 0) << outcome.err;
+  ASSERT_EQ(outcome.code, 0) << outcome.err;
+  // LOAM's: four regions of each of 64 rings, with two edges and four planar points at most.
+  const auto manifest = nlohmann::json::parse(ReadFile(Path("out/manifest.json")));
+  const std::size_t edges = manifest["results"]["edge_points"];
+  const std::size_t planar = manifest["results"]["planar_points"];
+  EXPECT_LE(edges, 64U * 4U * 2U);
+  EXPECT_LE(planar, 64U * 4U * 4U);
+  EXPECT_GT(planar, 64U * 4U * 3U);
 }
 
 TEST_F(Apps, ReverseGoesTheOtherWay) {

@@ -94,14 +94,17 @@ TEST(CovarianceDraws, CalibrateAndWarn) {
   EXPECT_EQ(std::stod(calibration[8].at("nees_about_mean")), nees);
   EXPECT_NEAR(std::stod(calibration[8].at("overconfidence")), std::sqrt(nees / 6), 1e-12);
   // Not every draw has every covariance: the screen says how many have it, and their own bounds.
+  int shown = 0;
   for (const auto& row : calibration) {
     if (row.at("estimator") != "monte_carlo" && std::stoi(row.at("draws")) >= 2) {
       char text[64];
       std::snprintf(text, sizeof(text), " %d  %.2f to %.2f\n", std::stoi(row.at("draws")),
                     std::stod(row.at("mean_lower_95")), std::stod(row.at("mean_upper_95")));
       EXPECT_THAT(outcome.out, HasSubstr(text)) << row.at("estimator");
+      ++shown;
     }
   }
+  EXPECT_GE(shown, 6);
   EXPECT_THAT(ReadFile(out + "/covariance.svg"), HasSubstr("</svg>"));
 }
 

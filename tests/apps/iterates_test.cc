@@ -94,10 +94,14 @@ TEST(Iterates, EndWhereTheGradientVanishesAndNotAtTheCurvesMinimum) {
 
 TEST(Iterates, LeaveNothingForARunWithoutThem) {
   const TemporaryFolder out;
+  const std::vector<std::string> files = {"iterates.csv", "iterates.svg", "iterates.png"};
   ASSERT_EQ(RunProgram("landscape", Turn(out, {"--samples=2", "--iterates"})).code, 0);
+  for (const std::string& file : files) {
+    EXPECT_TRUE(std::filesystem::exists(out.path() / file)) << file;
+  }
   ASSERT_EQ(RunProgram("landscape", Turn(out, {"--samples=2"})).code, 0);
-  for (const char* file : {"iterates.csv", "iterates.svg", "iterates.png"}) {
-    EXPECT_FALSE(std::filesystem::exists(out.path() / file));
+  for (const std::string& file : files) {
+    EXPECT_FALSE(std::filesystem::exists(out.path() / file)) << file;
   }
   EXPECT_THAT(ReadFile(out.path() / "landscape.svg"), Not(HasSubstr("off path")));
 }

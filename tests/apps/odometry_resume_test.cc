@@ -15,6 +15,7 @@ namespace icpscape {
 namespace {
 
 using testing::HasSubstr;
+using testing::Not;
 using testing_support::Bytes;
 using testing_support::ExpectRefusal;
 using testing_support::kProgram;
@@ -140,20 +141,27 @@ TEST_F(OdometryApp, GoesOnWithTheSameFlagsAlone) {
   EXPECT_EQ(ReadFile(Path("out/journal.txt")), journal);
   ASSERT_EQ(Run({frames, "--mode=two_stage", "--restart"}).code, 0);
   EXPECT_NE(ReadFile(Path("out/journal.txt")), journal);
-  EXPECT_EQ(Run({frames, "--mode=two_stage", "--threads=1"}).code, 0);
+  const std::string replayed = "journal: 3 scans are done, and are replayed";
+  const Outcome again = Run({frames, "--mode=two_stage", "--threads=1"});
+  EXPECT_EQ(again.code, 0) << again.err;
+  EXPECT_THAT(again.out, HasSubstr(replayed));
 
   folder_.Write(Scan(1), Bytes(TheDrive().scans[2]));
   ExpectRefusal(Run({frames, "--mode=two_stage"}), 2,
                 "000001.bin: is not the scan of the journal; expected it unchanged, or a restart.");
   EXPECT_FALSE(std::filesystem::exists(Path("out/manifest.json")));  // The mark of a finished run.
-  EXPECT_EQ(Run({frames, "--mode=two_stage", "--restart"}).code, 0);
+  const Outcome restarted = Run({frames, "--mode=two_stage", "--restart"});
+  EXPECT_EQ(restarted.code, 0) << restarted.err;
+  EXPECT_THAT(restarted.out, Not(HasSubstr("replayed")));
+  EXPECT_TRUE(std::filesystem::exists(Path("out/manifest.json")));
 
   // The data may have moved since.
   std::filesystem::rename(Path("kitti"), Path("moved"));
-  EXPECT_EQ(RunProgram("odometry", {"--kitti_root=" + Path("moved"), "--sequence=05", frames,
-                                    "--mode=two_stage", "--out=" + Path("out")})
-                .code,
-            0);
+  const Outcome moved =
+      RunProgram("odometry", {"--kitti_root=" + Path("moved"), "--sequence=05", frames,
+                              "--mode=two_stage", "--out=" + Path("out")});
+  EXPECT_EQ(moved.code, 0) << moved.err;
+  EXPECT_THAT(moved.out, HasSubstr(replayed));
   std::filesystem::rename(Path("moved"), Path("kitti"));
 
   // Not even --restart takes the folder from a run that is at it.

@@ -106,6 +106,24 @@ TEST(Features, AreCappedPerRegionWithTheLargestFirst) {
   }
 }
 
+// A-LOAM: six regions, with two edges, or up to twenty: here all that are there.
+TEST(Features, AreCappedAsALoamCapsThem) {
+  const PointCloud cloud = SpikyRing(2000, 2);
+  FeatureOptions options;
+  options.caps = kALoamSharpCaps;
+  EXPECT_EQ(ExtractFeatures(cloud, options, 1).num_edge, 6U * 2U);
+  EXPECT_EQ(ExtractFeatures(cloud, options, 1).num_planar, 6U * 4U);
+  options.caps = kALoamLessSharpCaps;
+  EXPECT_EQ(ExtractFeatures(cloud, options, 1).num_edge, 20U);
+  EXPECT_EQ(ExtractFeatures(cloud, options, 1).num_planar, 6U * 4U);
+  // Of a ring of nothing but spikes and flanks there are more than twenty to a region.
+  PointCloud jagged = SpikyRing(2000, 0);
+  for (std::size_t i = 0; i < jagged.size(); i += 12) {
+    jagged.x[i] *= 1.3F, jagged.y[i] *= 1.3F;
+  }
+  EXPECT_EQ(ExtractFeatures(jagged, options, 1).num_edge, 6U * 20U);
+}
+
 TEST(Features, OfCappedRingsKeepTheirDistance) {
   const PointCloud cloud = SpikyRing(2000, 2);
   FeatureOptions options;

@@ -69,6 +69,27 @@ TEST(Normals, NeighborhoodsWithoutAPlaneHaveNone) {
   EXPECT_FALSE(patch.NormalIsValid(0));
 }
 
+// Four points of 1 m by `thickness_m`: variances of 0.25 and 0.25 thickness^2. A line is one up to
+// a ratio of 1e-7 of them, 0.316 mm.
+TEST(Normals, OfALineThatIsThickEnough) {
+  const auto without = [](double thickness_m) {
+    PointCloud cloud;
+    for (const double x : {0.0, 1.0}) {
+      for (const double y : {0.0, thickness_m}) {
+        AddPoint({x, y, 1}, &cloud);
+      }
+    }
+    return EstimateNormals({4, 0}, 1, &cloud);
+  };
+  EXPECT_EQ(without(0.30e-3), 4U);
+  EXPECT_EQ(without(0.33e-3), 0U);
+  PointCloud three;  // A plane takes three points.
+  for (const Vec3& p : {Vec3(1, 0, -1), Vec3(0, 1, -1), Vec3(0, 0, -1)}) {
+    AddPoint(p, &three);
+  }
+  EXPECT_EQ(EstimateNormals({}, 1, &three), 0U);
+}
+
 TEST(Normals, CovarianceOfFourPointsByHand) {
   PointCloud cloud;
   for (const Vec3& p : {Vec3(1, 0, 5), Vec3(-1, 0, 5), Vec3(0, 2, 5), Vec3(0, -2, 5)}) {
@@ -170,11 +191,12 @@ TEST(PointCloud, DropsWhatNoRegistrationCanUse) {
   AddPoint({NAN, 0, 1}, &cloud);
   AddPoint({0, INFINITY, 1}, &cloud);
   AddPoint({0, 0, 1}, &cloud);
+  AddPoint({0, -1e6, 2}, &cloud);     // As far as any coordinate may be ...
+  AddPoint({0, 0, -1.01e6}, &cloud);  // ... and beyond.
   const DroppedPoints dropped = DropInvalidPoints(&cloud);
-  EXPECT_EQ(dropped.non_finite, 2U);
+  EXPECT_EQ(dropped.non_finite, 3U);
   EXPECT_EQ(dropped.zero, 1U);
-  EXPECT_EQ(cloud.size(), 2U);
-  EXPECT_EQ(cloud.z, (std::vector<float>{3, 1}));
+  EXPECT_EQ(cloud.z, (std::vector<float>{3, 1, 2}));
 }
 
 }  // namespace

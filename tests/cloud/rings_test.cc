@@ -72,6 +72,27 @@ TEST(Rings, AreRecoveredFromOneQuadrant) {
   EXPECT_THAT(cloud.ring, testing::ElementsAreArray(truth));
 }
 
+// A step back by more than 20 degrees begins a ring; a smaller one is noise. There are 2 to 128.
+TEST(Rings, BeginWhereTheAzimuthGoesBack) {
+  const auto rings = [](const std::vector<double>& azimuths_deg) {
+    std::vector<int> truth;
+    PointCloud cloud;
+    for (const double azimuth : azimuths_deg) {
+      Add(azimuth, 0, 10, 0, &cloud, &truth);
+    }
+    RecoverRings(&cloud);
+    return cloud.ring;
+  };
+  EXPECT_THAT(rings({100, 150, 129, 149, 130}), testing::ElementsAre(0, 0, 1, 1, 1));
+  std::vector<double> saw;
+  for (int ring = 0; ring < 128; ++ring) {
+    saw.insert(saw.end(), {10, 90});
+  }
+  EXPECT_EQ(rings(saw).back(), 127);
+  saw.insert(saw.end(), {10, 90});
+  EXPECT_THROW(rings(saw), InputError);
+}
+
 TEST(Rings, ThatAreThereStay) {
   PointCloud cloud;
   cloud.x = {1, 2, 3};

@@ -45,6 +45,13 @@ TEST(Consistency, NeesByHand) {
   EXPECT_NEAR(NeesAboutTruth(errors, four).Overconfidence(), std::sqrt(sum / 12 / 6) / 2, 1e-12);
   const Vec6 ratio = DeviationRatio(StatisticsOf(errors), four);
   EXPECT_NEAR(ratio[2], 2 / (3 * std::sqrt(2.0 / 11)), 1e-12);
+  // Variances are averaged, not deviations: those of 1 and 9 to 5.
+  std::vector<Mat6> one_and_nine = unit;
+  for (std::size_t i = 0; i < errors.size(); i += 2) {
+    one_and_nine[i] *= 9;
+  }
+  EXPECT_NEAR(DeviationRatio(StatisticsOf(errors), one_and_nine)[2],
+              std::sqrt(5.0) / (3 * std::sqrt(2.0 / 11)), 1e-12);
 }
 
 // Tables of the chi-square distribution: 60 degrees of freedom, 2.5 and 97.5 %.

@@ -3,7 +3,9 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "src/cloud/normals.h"
 #include "src/common/error.h"
@@ -11,6 +13,8 @@
 #include "src/minimizer/minimizer.h"
 #include "src/simulation/scenes.h"
 #include "src/simulation/simulated_sequence.h"
+#include "tests/support/matchers.h"
+#include "tests/support/scenes.h"
 
 namespace icpscape {
 namespace {
@@ -98,63 +102,79 @@ TEST(Degeneracy, ACorridorSlidesAlong) { ExpectDegenerate(Corridor(), {kX}); }
 TEST(Degeneracy, APlaneSlidesBothWaysAndTurns) { ExpectDegenerate(Plane(), {kX, kY, kYaw}); }
 TEST(Degeneracy, ATunnelSlidesAlongAndRolls) { ExpectDegenerate(Cylinder(), {kX, kRoll}); }
 
-// What X-ICP sums, by hand: m points whose normals are along x each contribute 1 to x and nothing
-// to y and z.
-TEST(Degeneracy, XicpCountsContributions) {
-  const auto category = [](int points) {
-    Constraints wall;
-    for (int i = 0; i < points; ++i) {
-      wall.push_back({Vec3(5, 0.1 * i, 0.2 * (i % 7)), Vec3::UnitX()});
+// X-ICP's verdict on x for `points` pairs whose normals have this x component, the rest of it to
+// the left and to the right in turns.
+Verdict XicpAlongX(double x_component, int points) {
+  Constraints walls;
+  for (int i = 0; i < points; ++i) {
+    const double rest = (i % 2 == 0 ? 1 : -1) * std::sqrt(1 - x_component * x_component);
+    walls.push_back({Vec3(5, 0.1 * i, 0.2 * (i % 7)), Vec3(x_component, rest, 0)});
+  }
+  for (const Verdict& verdict : JudgeXicp(HessianOf(walls), walls)) {
+    if (std::abs(verdict.direction[kX]) > 0.9) {
+      return verdict;
     }
-    for (const Verdict& verdict : JudgeXicp(HessianOf(wall), wall)) {
-      if (std::abs(verdict.direction[kX]) > 0.9) {
-        EXPECT_NEAR(verdict.value, points, 1e-9);
-        return verdict.localizability;
-      }
-    }
-    ADD_FAILURE() << "no direction along x";
-    return Localizability::kNone;
-  };
-  EXPECT_EQ(category(34), Localizability::kNone);
-  EXPECT_EQ(category(36), Localizability::kPartial);
-  EXPECT_EQ(category(179), Localizability::kPartial);
-  EXPECT_EQ(category(181), Localizability::kFull);
-  // Normals 85 degrees from x are noise; 60 degrees from it they are weak: only L_c counts them.
-  const auto tilted = [](double angle_deg, int points) {
-    Constraints walls;
-    for (int i = 0; i < points; ++i) {
-      const double sign = i % 2 == 0 ? 1 : -1;
-      const double angle = sign * angle_deg * M_PI / 180;
-      walls.push_back({Vec3(5, 0.1 * i, 0), Vec3(std::cos(angle), std::sin(angle), 0)});
-    }
-    for (const Verdict& verdict : JudgeXicp(HessianOf(walls), walls)) {
-      if (std::abs(verdict.direction[kX]) > 0.9) {
-        return verdict;
-      }
-    }
-    ADD_FAILURE() << "no direction along x";
-    return Verdict{};
-  };
-  EXPECT_EQ(tilted(85, 4000).value, 0);
-  EXPECT_EQ(tilted(85, 4000).localizability, Localizability::kNone);
-  EXPECT_NEAR(tilted(60, 400).value, 200, 1e-9);
-  EXPECT_EQ(tilted(60, 400).localizability, Localizability::kPartial);
-  EXPECT_EQ(tilted(60, 520).localizability, Localizability::kFull);
+  }
+  ADD_FAILURE() << "no direction along x";
+  return Verdict{};
 }
 
-// Lever arms begin at the points' centroid, here 10 m beside the sensor: about it the points, 1 m
-// above and below, hold the turn about y. Seen from the sensor they would hold the one about z.
+// Normals along x contribute 1 each to L_c and L_s, and the thresholds of L_s decide: 35 and 180.
+TEST(Degeneracy, XicpCountsStrongContributions) {
+  const auto category = [](int points) {
+    const Verdict verdict = XicpAlongX(1, points);
+    EXPECT_NEAR(verdict.value, points, 1e-9);
+    EXPECT_EQ(verdict.threshold, 180);
+    return verdict.localizability;
+  };
+  EXPECT_EQ(category(34), Localizability::kNone);
+  EXPECT_EQ(category(35), Localizability::kPartial);
+  EXPECT_EQ(category(179), Localizability::kPartial);
+  EXPECT_EQ(category(180), Localizability::kFull);
+}
+
+// Normals 60 degrees from x contribute 1/2 each to L_c and nothing to L_s: its thresholds are 180
+// and 250.
+TEST(Degeneracy, XicpCountsWeakContributions) {
+  const auto category = [](int points) {
+    const Verdict verdict = XicpAlongX(0.5, points);
+    EXPECT_NEAR(verdict.value, 0.5 * points, 1e-9);
+    return verdict.localizability;
+  };
+  EXPECT_EQ(category(358), Localizability::kNone);
+  EXPECT_EQ(category(360), Localizability::kPartial);
+  EXPECT_EQ(category(498), Localizability::kPartial);
+  EXPECT_EQ(category(500), Localizability::kFull);
+}
+
+// Below cos(80 deg) a contribution is noise, and from cos(45 deg) on it is strong. (No normal meets
+// a cosine exactly: whether these bounds belong to either side makes no difference.)
+TEST(Degeneracy, XicpTellsNoiseAndStrengthByTheAngle) {
+  const auto cosine = [](double degrees) { return std::cos(degrees * M_PI / 180); };
+  EXPECT_EQ(XicpAlongX(cosine(80.5), 4000).value, 0);
+  EXPECT_EQ(XicpAlongX(cosine(80.5), 4000).localizability, Localizability::kNone);
+  EXPECT_NEAR(XicpAlongX(cosine(79.5), 4000).value, 4000 * cosine(79.5), 1e-6);
+  EXPECT_EQ(XicpAlongX(cosine(45.5), 60).localizability, Localizability::kNone);
+  EXPECT_EQ(XicpAlongX(cosine(44.5), 60).localizability, Localizability::kPartial);
+}
+
+// Lever arms begin at the points' centroid, here 10 m beside the sensor: about it the points, 3 m
+// above and below, hold the turn about y. Seen from the sensor they would hold the one about z. How
+// long a lever arm is does not count.
 TEST(Degeneracy, XicpTurnsAboutTheCentroid) {
   Constraints wall;
   for (int i = 0; i < 100; ++i) {
-    wall.push_back({Vec3(0, 10, i % 2 == 0 ? 1 : -1), Vec3::UnitX()});
+    wall.push_back({Vec3(0, 10, i % 2 == 0 ? 3 : -3), Vec3::UnitX()});
   }
+  int rotations = 0;
   for (const Verdict& verdict : JudgeXicp(HessianOf(wall), wall)) {
     if (verdict.direction.head<3>().norm() > 0.5) {
+      ++rotations;
       const bool about_y = std::abs(verdict.direction[1]) > 0.9;
       EXPECT_NEAR(verdict.value, about_y ? 100 : 0, 1e-9) << verdict.direction.transpose();
     }
   }
+  EXPECT_EQ(rotations, 3);
 }
 
 // The eigenvalue rule counts points; the condition numbers do not.
@@ -170,7 +190,6 @@ TEST(Degeneracy, OnlyTheEigenvalueRuleDependsOnTheNumberOfPoints) {
   EXPECT_EQ(degenerate(JudgeDcreg(room)), degenerate(JudgeDcreg(1e-3 * room)));
 }
 
-// Two walls at x = 4 and y = 0, points given by hand: H_tt = diag(2, 1, .), one row each.
 TEST(Degeneracy, DcregConditionsAreThoseOfTheSchurComplements) {
   Mat6 hessian = Mat6::Zero();
   hessian.diagonal() << 2, 30, 4, 100, 9, 50;
@@ -187,6 +206,74 @@ TEST(Degeneracy, DcregConditionsAreThoseOfTheSchurComplements) {
   EXPECT_EQ(verdicts[3].localizability, Localizability::kNone);
 }
 
+// Degenerate is a condition above 10, not one of 10.
+TEST(Degeneracy, DcregDecidesAtTen) {
+  Mat6 hessian = Mat6::Zero();
+  hessian.diagonal() << 2, 20.2, 19, 1, 10, 9;
+  const std::vector<Verdict> verdicts = JudgeDcreg(hessian);
+  EXPECT_NEAR(verdicts[0].value, 10.1, 1e-12);
+  EXPECT_EQ(verdicts[0].threshold, 10);
+  EXPECT_EQ(verdicts[0].localizability, Localizability::kNone);
+  EXPECT_EQ(verdicts[3].value, 10);
+  EXPECT_EQ(verdicts[3].localizability, Localizability::kFull);
+}
+
+// The turn about y is coupled by c with a translation along z that has the eigenvalue e, beside one
+// of 100: S_R = 30 - c^2 / e = 20 while e counts, and 30 where it is a zero but for rounding.
+TEST(Degeneracy, DcregLeavesOutWhatIsSingular) {
+  const auto largest_of_rotation = [](double e) {
+    Mat6 hessian = Mat6::Zero();
+    hessian.diagonal() << 2, 30, 4, 100, 50, e;
+    hessian(1, 5) = hessian(5, 1) = std::sqrt(10 * e);
+    const std::vector<Verdict> verdicts = JudgeDcreg(hessian);
+    EXPECT_EQ(verdicts[3].localizability, Localizability::kNone) << "along z";
+    return 2 * verdicts[0].value;
+  };
+  EXPECT_NEAR(largest_of_rotation(1e-9), 20, 1e-6);
+  EXPECT_NEAR(largest_of_rotation(1e-11), 30, 1e-6);
+  Mat6 flat = Mat6::Identity();
+  flat(5, 5) = 0;
+  // No test tells whether negative eigenvalues are set to 0 first: the condition is infinite
+  // anyway.
+  EXPECT_TRUE(std::isinf(JudgeDcreg(flat)[3].value));
+}
+
+// The eigenvalues are the axes' own. A threshold is not yet degenerate.
+TEST(Degeneracy, LoamsThresholdsAreTenAndAHundred) {
+  Mat6 hessian = Mat6::Zero();
+  hessian.diagonal() << 9.9, 10, 10.1, 99, 100, 128;
+  int odometry = 0, mapping = 0;
+  for (const Verdict& verdict : JudgeDegeneracy(hessian, {})) {
+    const bool none = verdict.localizability == Localizability::kNone;
+    odometry += verdict.rule == "loam_odometry" && none ? 1 : 0;
+    mapping += verdict.rule == "loam_mapping" && none ? 1 : 0;
+    EXPECT_NE(verdict.rule, "x_icp") << "there are no pairs";
+  }
+  EXPECT_EQ(odometry, 1);
+  EXPECT_EQ(mapping, 4);
+}
+
+// Planes are the closest points' normals, or the patches'. The constraints are the rows of J, so
+// that both have one Hessian.
+TEST(Degeneracy, PlanesAreNormalsOrPatches) {
+  const SE3d T = SE3d::Exp((Vec6() << 0.1, -0.2, 0.5, 0.3, 0.05, -0.02).finished());
+  PointCloud target = testing_support::Room(3000, 1, SE3d(), 0.005);
+  const PointCloud source = testing_support::Room(3000, 2, T.Inverse(), 0.005);
+  EstimateNormals({}, 2, &target);
+  for (const char* metric : {"point_to_plane", "planar_to_plane"}) {
+    const auto matcher = testing_support::MatcherFor(metric, source, target);
+    const Objective objective(metric, *matcher);
+    const Matches matches = objective.Match(T, 2);
+    const Mat6 hessian = objective.Evaluate(T, matches, 2).sums.Hessian();
+    const Constraints constraints = PlaneConstraintsOf(objective, T, matches);
+    EXPECT_GT(constraints.size(), 1000U) << metric;
+    EXPECT_LE((HessianOf(constraints) - hessian).norm(), 1e-9 * hessian.norm()) << metric;
+  }
+  const ClosestPointMatcher points(source, target);
+  const Objective objective("point_to_point", points);
+  EXPECT_TRUE(PlaneConstraintsOf(objective, T, objective.Match(T, 1)).empty());
+}
+
 // diag(4, ..) rad^-2 at a lever arm of 2 m is 1 m^-2.
 TEST(Degeneracy, EigenvaluesAreInTheStatedLength) {
   Mat6 hessian = Mat6::Identity();
@@ -194,7 +281,9 @@ TEST(Degeneracy, EigenvaluesAreInTheStatedLength) {
   const EigenDirections at_2_m = EigenDirectionsOf(hessian, 2);
   EXPECT_LT((at_2_m.eigenvalues - Vec6::Ones()).norm(), 1e-12);
   EXPECT_NEAR(EigenDirectionsOf(hessian, 1).eigenvalues[5], 4, 1e-12);
-  EXPECT_THROW(EigenDirectionsOf(hessian, 0), UsageError);
+  for (const double length_m : {0.0, -1.0, std::nan(""), std::numeric_limits<double>::infinity()}) {
+    EXPECT_THROW(EigenDirectionsOf(hessian, length_m), UsageError) << length_m;
+  }
 }
 
 // A simulated highway holds least along itself; all six directions are determined.

@@ -2,8 +2,10 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <chrono>
 #include <nlohmann/json.hpp>
 #include <random>
+#include <thread>
 
 #include "src/common/error.h"
 #include "src/common/text.h"
@@ -65,10 +67,25 @@ TEST(Transform, RefusesWhatIsNotRigid) {
   EXPECT_THAT(InputMessage([] { ReadTransform("/nowhere/T.txt"); }), HasSubstr("cannot be read"));
 }
 
+// R^T R may be off by 1e-3: a scale of 1 + e makes that 2 sqrt(3) e. What is taken is made rigid.
+TEST(Transform, TakesTheRoundingOfText) {
+  const auto scaled = [](double s) {
+    const std::string d = Number(s);
+    return d + " 0 0 1 0 " + d + " 0 2 0 0 " + d + " 3";
+  };
+  const SE3d T = ParseTransform(scaled(1.00028), "place");
+  EXPECT_LE((T.R() - Mat3::Identity()).norm(), 1e-12);
+  EXPECT_EQ(T.t(), Vec3(1, 2, 3));
+  EXPECT_THAT(InputMessage([&] { ParseTransform(scaled(1.0003), "place"); }),
+              HasSubstr("not rigid"));
+}
+
 TEST(PointFiles, PlyGoesRound) {
   const TemporaryFolder folder;
   PointCloud cloud = testing_support::Room(100, 1);
-  cloud.intensity.assign(100, 0.5);
+  for (int i = 0; i < 100; ++i) {
+    cloud.intensity.push_back(static_cast<float>(i) / 128);
+  }
   WritePly(folder.path() / "room.ply", cloud);
   DroppedPoints dropped;
   const PointCloud back = ReadPointFile(folder.path() / "room.ply", &dropped);
@@ -164,9 +181,23 @@ TEST(Output, FolderMustBeWritable) {
 TEST(Manifest, SaysWhatTookHowLong) {
   Manifest manifest("test");
   EXPECT_EQ(manifest.TimingsText(), "");
+  // Each is what went by since the one before: "draw" no more than the time around it.
+  const auto sleep = [] { std::this_thread::sleep_for(std::chrono::milliseconds(20)); };
+  const auto now = [] { return std::chrono::steady_clock::now(); };
+  sleep();
+  const auto before = now();
   manifest.AddTiming("read");
+  sleep();
   manifest.AddTiming("draw");
-  EXPECT_EQ(manifest.TimingsText(), "read 0.00 s, draw 0.00 s");
+  const double around_s = std::chrono::duration<double>(now() - before).count();
+  EXPECT_THAT(manifest.TimingsText(), testing::MatchesRegex("read [0-9.]+ s, draw [0-9.]+ s"));
+  const TemporaryFolder folder;
+  manifest.Write(folder.path() / "manifest.json");
+  const auto timings =
+      nlohmann::json::parse(ReadFile(folder.path() / "manifest.json"))["timings_s"];
+  EXPECT_GE(timings["read"].get<double>(), 0.02);
+  EXPECT_GE(timings["draw"].get<double>(), 0.02);
+  EXPECT_LE(timings["draw"].get<double>(), around_s);
 }
 
 TEST(Manifest, HashesInputs) {

@@ -141,6 +141,21 @@ TEST(Trajectory, RefusesBrokenFilesInOneSentence) {
   EXPECT_THAT(refusal(tum + "1 0 0 0 0 0 0 1\n"), HasSubstr("t.txt:3: timestamp 1 is not after"));
 }
 
+// Text rounds quaternions: by a thousandth they may be off, and are normalised. On Earth no
+// coordinate is beyond 1e9 m.
+TEST(Trajectory, TakesWhatIsNearlyRight) {
+  const TemporaryFolder folder;
+  const auto read = [&](const std::string& row) {
+    return RefusalOf(folder.Write("t.txt", "0 0 0 0 0 0 0 1\n" + row + "\n"));
+  };
+  EXPECT_EQ(read("1 0 0 0 0 0 0 1.0009"), "nothing was thrown");
+  EXPECT_THAT(read("1 0 0 0 0 0 0 1.0011"), HasSubstr("the quaternion has norm 1.0011"));
+  EXPECT_THAT(read("1 0 0 0 0 0 0 0.9989"), HasSubstr("the quaternion has norm 0.9989"));
+  EXPECT_EQ(read("1 -1e9 0 0 0 0 0 1"), "nothing was thrown");
+  EXPECT_THAT(read("1 0 0 -1.01e9 0 0 0 1"), HasSubstr("a coordinate of 1.01e+09 m"));
+  EXPECT_THAT(read("-1 0 0 0 0 0 0 1"), HasSubstr("is not after the one before"));
+}
+
 TEST(Trajectory, ReadsTheOfficialPoses) {
   ICPSCAPE_SKIP_WITHOUT_KITTI();
   const Trajectory trajectory = ReadTrajectory(KittiFiles(KittiRoot(), "00").Poses());

@@ -6,34 +6,62 @@
 #include <cmath>
 
 #include "src/matching/closest_point_matcher.h"
-#include "tests/support/scenes.h"
+#include "src/objective/loss.h"
+#include "tests/minimizer/room.h"
 
 namespace icpscape {
 namespace {
 
-const SE3d kMotion = SE3d::Exp((Vec6() << 0.01, -0.005, 0.05, 0.3, 0.05, -0.02).finished());
+using testing_support::AngleRad;
+using testing_support::DistanceM;
+using testing_support::kMotion;
 
-const testing_support::MovedRoom& Room() {
-  static const testing_support::MovedRoom room(8000, kMotion);
-  return room;
+const testing_support::MovedRoom& Room() { return testing_support::RoomOfKMotion(); }
+
+// Vectors whose direction is uniform on the sphere and whose length is uniform up to `longest`:
+// means of 0, mean squares of longest^2 / 9 (a third of that of the length) along every axis, and a
+// mean length of half the longest. `count` draws are off by some 1 / sqrt(count).
+void ExpectUniformInDirectionAndLength(const std::vector<Vec3>& vectors, double longest) {
+  const auto n = static_cast<double>(vectors.size());
+  Vec3 mean = Vec3::Zero();
+  Vec3 mean_square = Vec3::Zero();
+  double mean_length = 0, largest = 0;
+  for (const Vec3& v : vectors) {
+    mean += v / n;
+    mean_square += v.cwiseAbs2() / n;
+    mean_length += v.norm() / n;
+    largest = std::max(largest, v.norm());
+  }
+  EXPECT_LE(largest, longest * (1 + 1e-9));
+  EXPECT_GE(largest, longest * 0.99);
+  EXPECT_NEAR(mean_length, 0.5 * longest, 0.02 * longest);
+  for (int axis = 0; axis < 3; ++axis) {
+    EXPECT_NEAR(mean[axis], 0, 0.03 * longest) << axis;
+    EXPECT_NEAR(mean_square[axis], longest * longest / 9, 0.01 * longest * longest) << axis;
+  }
 }
 
-TEST(RandomStarts, StayWithinTheirLimitsAndRepeat) {
+// The start is T_reference Exp(xi): the reference is turned and far away, so that the order
+// matters.
+TEST(RandomStarts, AreUniformAboutTheReferenceAndRepeat) {
   RandomStartOptions options;
-  options.count = 500;
-  const std::vector<SE3d> starts = RandomStarts(kMotion, options);
-  ASSERT_EQ(starts.size(), 500U);
-  double longest = 0, largest = 0;
+  options.count = 4000;
+  options.translation_m = 0.5;
+  options.rotation_rad = 0.05;
+  const SE3d reference = SE3d::Exp((Vec6() << 0.2, -0.4, 1, 30, -20, 5).finished());
+  const std::vector<SE3d> starts = RandomStarts(reference, options);
+  ASSERT_EQ(starts.size(), 4000U);
+  std::vector<Vec3> rotations, translations;
   for (const SE3d& start : starts) {
-    longest = std::max(longest, (kMotion.Inverse() * start).t().norm());
-    largest = std::max(largest, (kMotion.Inverse() * start).LogRotation().norm());
+    const Vec6 xi = (reference.Inverse() * start).Log();
+    rotations.push_back(xi.head<3>());
+    translations.push_back(xi.tail<3>());
   }
-  EXPECT_LE(longest, options.translation_m * 1.001);
-  EXPECT_GE(longest, options.translation_m * 0.97);
-  EXPECT_LE(largest, options.rotation_rad * 1.001);
-  EXPECT_EQ(starts[7].Matrix(), RandomStarts(kMotion, options)[7].Matrix());
+  ExpectUniformInDirectionAndLength(rotations, 0.05);
+  ExpectUniformInDirectionAndLength(translations, 0.5);
+  EXPECT_EQ(starts[7].Matrix(), RandomStarts(reference, options)[7].Matrix());
   options.seed = 2;
-  EXPECT_NE(starts[7].Matrix(), RandomStarts(kMotion, options)[7].Matrix());
+  EXPECT_NE(starts[7].Matrix(), RandomStarts(reference, options)[7].Matrix());
 }
 
 TEST(RandomStarts, StayWithinTheFreeDirections) {
@@ -47,19 +75,37 @@ TEST(RandomStarts, StayWithinTheFreeDirections) {
   }
 }
 
-TEST(RandomStarts, CountFailures) {
+// What Minimize gives from every start, one after the other.
+TEST(RandomStarts, ReportWhatBecameOfEachStart) {
   const ClosestPointMatcher matcher(Room().source, Room().target);
   const Objective objective("point_to_plane", matcher);
   RandomStartOptions options;
   options.count = 4;
-  options.minimizer.max_iterations = 1;  // Too few to arrive from metres away.
+  options.minimizer.max_iterations = 2;  // Too few for the far ones.
+  options.minimizer.threads = 2;
   options.translation_m = 5;
-  for (const StartResult& result : RunRandomStarts(objective, kMotion, options)) {
-    EXPECT_EQ(result.success, result.end_m < kSuccessM && result.end_rad < kSuccessRad);
-    if (result.start_m > 2) {
-      EXPECT_FALSE(result.success);
+  const SE3d reference = kMotion * SE3d::Exp((Vec6() << 0, 0, 0.01, 0.02, 0, 0).finished());
+  std::vector<int> progress;
+  const std::vector<StartResult> results =
+      RunRandomStarts(objective, reference, options, [&](int done) { progress.push_back(done); });
+  EXPECT_EQ(progress, (std::vector<int>{1, 2, 3, 4}));
+  const std::vector<SE3d> starts = RandomStarts(reference, options);
+  ASSERT_EQ(results.size(), starts.size());
+  int far = 0;
+  for (std::size_t i = 0; i < starts.size(); ++i) {
+    const MinimizerSummary summary = Minimize(objective, starts[i], options.minimizer);
+    EXPECT_NEAR(results[i].start_m, DistanceM(reference, starts[i]), 1e-12);
+    EXPECT_NEAR(results[i].start_rad, AngleRad(reference, starts[i]), 1e-12);
+    EXPECT_NEAR(results[i].end_m, DistanceM(reference, summary.T_target_source()), 1e-12);
+    EXPECT_NEAR(results[i].end_rad, AngleRad(reference, summary.T_target_source()), 1e-12);
+    EXPECT_EQ(results[i].iterations, 2);
+    EXPECT_EQ(results[i].termination, Termination::kMaxIterations);
+    if (results[i].start_m > 2) {
+      EXPECT_FALSE(results[i].success);
+      ++far;
     }
   }
+  EXPECT_GT(far, 0);
 }
 
 TEST(RandomStarts, SucceedInARoom) {
@@ -73,7 +119,50 @@ TEST(RandomStarts, SucceedInARoom) {
   for (const StartResult& result : results) {
     EXPECT_TRUE(result.success);
     EXPECT_GT(result.start_m, 0);
-    EXPECT_LT(result.end_m, kSuccessM);
+    EXPECT_LT(result.end_m, 0.05);
+  }
+}
+
+// All end at the motion, within millimetres; the reference is off by one kind of error alone.
+// Success is within 5 cm and within a quarter of a degree.
+TEST(RandomStarts, SucceedWithinMetresAndRadiansBoth) {
+  const ClosestPointMatcher matcher(Room().source, Room().target);
+  const Objective objective("point_to_plane", matcher);
+  RandomStartOptions options;
+  options.count = 2;
+  options.minimizer.threads = 2;
+  const auto succeed = [&](double off_m, double off_deg) {
+    const SE3d reference =
+        kMotion * SE3d::Exp((Vec6() << 0, 0, off_deg * M_PI / 180, off_m, 0, 0).finished());
+    const std::vector<StartResult> results = RunRandomStarts(objective, reference, options);
+    EXPECT_EQ(results[0].success, results[1].success);
+    return results[0].success;
+  };
+  EXPECT_TRUE(succeed(0.04, 0));
+  EXPECT_FALSE(succeed(0.06, 0));
+  EXPECT_TRUE(succeed(0, 0.2));
+  EXPECT_FALSE(succeed(0, 0.3));
+}
+
+// A start next to the reference that cannot be minimised is no success.
+TEST(RandomStarts, FailWithoutAUsableResult) {
+  const ClosestPointMatcher matcher(Room().source, Room().target);
+  const Objective flat("point_to_point", matcher, MakeLoss("tukey", 1e-6));
+  RandomStartOptions options;
+  options.count = 2;
+  options.translation_m = 0.01;
+  options.rotation_rad = 0.001;
+  for (const StartResult& result : RunRandomStarts(flat, kMotion, options)) {
+    EXPECT_EQ(result.termination, Termination::kFailure);
+    EXPECT_LT(result.end_m, 0.05);
+    EXPECT_FALSE(result.success);
+  }
+  const ClosestPointMatcher gated(Room().source, Room().target, {1e-9});
+  for (const StartResult& result :
+       RunRandomStarts(Objective("point_to_plane", gated), kMotion, options)) {
+    EXPECT_EQ(result.termination, Termination::kNoCorrespondences);
+    EXPECT_TRUE(std::isnan(result.end_m) && std::isnan(result.end_rad));
+    EXPECT_FALSE(result.success);
   }
 }
 

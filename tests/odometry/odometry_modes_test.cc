@@ -59,6 +59,7 @@ TEST_P(EveryMode, IsTheSameForAnyNumberOfThreads) {
   }
 }
 
+// Stopped after any number of scans and resumed from the journal's text.
 TEST_P(EveryMode, GoesOnAfterAReplayAsIfItHadNotStopped) {
   for (const Metrics& metrics : {kPlanes, kLoam}) {
     const std::vector<PointCloud> scans = FirstScans(metrics == kLoam ? 4 : 6);
@@ -80,6 +81,7 @@ TEST_P(EveryMode, GoesOnAfterAReplayAsIfItHadNotStopped) {
   }
 }
 
+// A covered sensor sees next to nothing: the car goes on as before, and so does the odometry.
 TEST_P(EveryMode, PredictsWhereAScanCannotBeRegistered) {
   PointCloud nothing;
   PointCloud far_away;
@@ -105,6 +107,8 @@ TEST_P(EveryMode, PredictsWhereAScanCannotBeRegistered) {
   }
 }
 
+// Rings are needed, and points in no order have none: one such scan is an accident, a drive of them
+// is not for these metrics.
 TEST_P(EveryMode, PredictsWhereAScanHasNoRings) {
   std::vector<PointCloud> scans = FirstScans(6);
   scans[2] = testing_support::Room(3000, 1);
@@ -181,6 +185,7 @@ TEST_P(EveryMode, TakesEveryMetricAndRejection) {
   expect_motion(options, "every evaluation");
 }
 
+// After 20 km, where a float is rounded to 2 mm, a drive goes on as at home.
 TEST_P(EveryMode, IsPreciseFarFromHome) {
   const OdometryOptions options = Options(Mode());
   const std::vector<PointCloud> scans = FirstScans(5);

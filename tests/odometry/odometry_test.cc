@@ -17,10 +17,6 @@ namespace {
 using namespace testing_support;  // NOLINT: the helpers of these tests, all of them.
 using testing::HasSubstr;
 
-// Stopped after any number of scans and resumed from the journal's text.
-// A covered sensor sees next to nothing: the car goes on as before, and so does the odometry.
-// Rings are needed, and points in no order have none: one such scan is an accident, a drive of them
-// is not for these metrics.
 TEST(Odometry, StartsFromTheMotionBefore) {
   OdometryOptions options = Options(OdometryMode::kScanToScan);
   options.adaptive_gate_m = 0;  // Which would help to forget a bad start.
@@ -116,6 +112,24 @@ TEST(Odometry, IsScanToScanWithAMapOfOneScan) {
   }
 }
 
+// The estimate of the filters is the predicted motion, whatever the target is. Of 0.8 m a scan the
+// voxels of half a metre would keep little without it.
+TEST(Odometry, FiltersAMapOfOneScanAsTheScan) {
+  OdometryOptions options = Options(OdometryMode::kScanToMap);
+  options.map = {1e-3, 1e4, 1};
+  options.filters.octree_voxel_m = 0.5;
+  const auto map = RunAll(options, FirstScans(5));
+  options.mode = OdometryMode::kScanToScan;
+  const auto scan = RunAll(options, FirstScans(5));
+  for (std::size_t i = 2; i < map.size(); ++i) {
+    EXPECT_TRUE(map[i].registered);
+    EXPECT_NEAR(static_cast<double>(map[i].n), static_cast<double>(scan[i].n),
+                0.02 * static_cast<double>(scan[i].n))
+        << i;
+    EXPECT_LT(DistanceM(map[i].T_world_lidar, scan[i].T_world_lidar), 2e-3) << i;
+  }
+}
+
 TEST(Odometry, KeepsTheMapThatItIsToldTo) {
   OdometryOptions options = Options(OdometryMode::kScanToMap);
   const auto points_of_map = [&](const LocalMapOptions& map) {
@@ -166,7 +180,24 @@ TEST(Odometry, MapsEveryFewScansInTwoStages) {
     EXPECT_EQ(two[i].motion.Matrix(), one[i].motion.Matrix()) << i;
     const SE3d without_map = (two[i - 1].T_world_lidar * two[i].motion).Normalized();
     EXPECT_EQ(two[i].T_world_lidar.Matrix() == without_map.Matrix(), !maps) << i;
+    // Pairs and RMSE are those of the last stage.
+    EXPECT_EQ(two[i].n == one[i].n, !maps) << i;
+    EXPECT_EQ(two[i].rmse == one[i].rmse, !maps) << i;
   }
+}
+
+// One iteration a stage: they are counted together. Voxels of a millimetre keep all points: those
+// of the first scan alone, since scans that are not registered to the map do not go into it.
+TEST(Odometry, CountsTheIterationsOfBothStagesAndMapsTheScansOfTheSecond) {
+  OdometryOptions options = Options(OdometryMode::kTwoStage);
+  options.map_every = 3;
+  options.map = {1e-3, 1e4, 0};
+  options.minimizer.max_iterations = 1;
+  const auto results = RunAll(options, FirstScans(5));
+  EXPECT_EQ(results[2].iterations, 1);
+  EXPECT_EQ(results[3].iterations, 2);
+  EXPECT_EQ(results[4].iterations, 1);
+  EXPECT_EQ(results[3].map_points, results[0].points);
 }
 
 TEST(Odometry, RegistersToTheMapAloneWhereItMust) {
@@ -200,7 +231,6 @@ TEST(Odometry, RegistersToTheScanAloneWhereItMust) {
             results[3].T_world_lidar.Matrix());
 }
 
-// After 20 km, where a float is rounded to 2 mm, a drive goes on as at home.
 TEST(Odometry, BeginsWithAnyFirstScan) {
   for (const OdometryMode mode : kModes) {
     std::vector<PointCloud> scans = FirstScans(5);

@@ -1,59 +1,22 @@
 // SPDX-License-Identifier: BSD-3-Clause
+// KITTI's errors of stretches, and their means.
 #include "src/odometry/trajectory_errors.h"
 
-#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include <cmath>
-#include <random>
 
-#include "src/common/error.h"
+#include "tests/odometry/trajectories.h"
 #include "tests/support/real_scans.h"
 
 namespace icpscape {
 namespace {
 
-constexpr double kDegree = M_PI / 180;
-
-SE3d Yaw(double angle_rad) { return SE3d::Exp((Vec6() << 0, 0, angle_rad, 0, 0, 0).finished()); }
-SE3d Forward(double length_m) { return SE3d(Mat3::Identity(), Vec3(length_m, 0, 0)); }
-
-// `count` poses, each the one before moved by `motion`.
-std::vector<SE3d> Drive(const SE3d& motion, int count) {
-  std::vector<SE3d> poses = {SE3d()};
-  while (static_cast<int>(poses.size()) < count) {
-    poses.push_back(poses.back() * motion);
-  }
-  return poses;
-}
-
-// A long drive with curves, slopes and all speeds up to 20 m/s.
-std::vector<SE3d> WindingDrive(int count) {
-  std::vector<SE3d> poses = {SE3d()};
-  for (int i = 1; i < count; ++i) {
-    const double s = i / 400.0;
-    Vec6 twist;
-    twist << 0.002 * std::sin(7 * s), 0.003 * std::cos(5 * s), 0.02 * std::sin(3 * s),
-        1 + std::sin(2 * s), 0, 0;
-    poses.push_back(poses.back() * SE3d::Exp(twist));
-  }
-  return poses;
-}
-
-// An odometry that errs at random in every step.
-std::vector<SE3d> Perturbed(const std::vector<SE3d>& truth, unsigned seed) {
-  std::mt19937 engine(seed);
-  const auto noise = [&] { return static_cast<double>(engine()) / 2147483648.0 - 1; };
-  std::vector<SE3d> poses = {truth[0]};
-  for (std::size_t i = 1; i < truth.size(); ++i) {
-    Vec6 xi;
-    for (int k = 0; k < 6; ++k) {
-      xi(k) = (k < 3 ? 1e-3 : 2e-2) * noise();
-    }
-    poses.push_back(poses.back() * (truth[i - 1].Inverse() * truth[i]) * SE3d::Exp(xi));
-  }
-  return poses;
-}
+using testing_support::Drive;
+using testing_support::Forward;
+using testing_support::kDegree;
+using testing_support::Perturbed;
+using testing_support::WindingDrive;
 
 // By hand: 1 m a frame straight on, 102 frames. Path lengths are 0 to 101 m, so that from frame 0
 // 100 m are exceeded at frame 101, and from frame 10 never. The estimate goes 1.01 m a frame.
@@ -93,7 +56,9 @@ TEST(KittiSegmentErrors, LastFrameLiesFartherThanTheLength) {
 
 TEST(KittiSegmentErrors, TruthHasNone) {
   const std::vector<SE3d> truth = WindingDrive(3000);
-  for (const SegmentError& error : KittiSegmentErrors({truth, truth, {}})) {
+  const std::vector<SegmentError> errors = KittiSegmentErrors({truth, truth, {}});
+  ASSERT_GT(errors.size(), 100U);
+  for (const SegmentError& error : errors) {
     EXPECT_LE(error.translation, 1e-12);
     EXPECT_LE(error.rotation_rad_per_m, 1e-12);
   }
@@ -241,116 +206,22 @@ TEST(MeanSegmentErrors, OfSequencesAndOfSegments) {
   EXPECT_FALSE(MeanOfMeans({}));
 }
 
-// By hand: a square of 1 m; the estimate is the truth, moved by 1 m in y and turned by 90 degrees.
-TEST(AbsoluteErrors, AlignmentsByHand) {
-  const std::vector<SE3d> truth = Drive(Forward(1) * Yaw(90 * kDegree), 4);
-  TrajectoryPair pair = {truth, truth, {}};
-  const SE3d moved = SE3d(Yaw(90 * kDegree).R(), Vec3(0, 1, 0));
-  for (SE3d& T : pair.estimate) {
-    T = moved * T;
+// Bins reach 2 m/s to either side, their ends left out: neighbours overlap.
+TEST(MeanSegmentErrors, OfASpeedAreThoseOfItsBin) {
+  std::vector<SegmentError> errors(3);
+  const double speeds_mps[] = {3.9, 4, 5.5};
+  for (std::size_t i = 0; i < 3; ++i) {
+    errors[i].speed_mps = speeds_mps[i];
+    errors[i].translation = std::pow(10, i);
+    errors[i].rotation_rad_per_m = 2 * std::pow(10, i);
   }
-  // Positions (0,0) (1,0) (1,1) (0,1) become (0,1) (0,2) (-1,2) (-1,1).
-  const PoseErrors given = AbsoluteErrors(pair, *AlignmentOf(pair, Alignment::kNone));
-  const double expected[] = {1, std::sqrt(5), std::sqrt(5), 1};
-  for (std::size_t i = 0; i < 4; ++i) {
-    EXPECT_NEAR(given.translation_m[i], expected[i], 1e-12);
-    EXPECT_NEAR(given.rotation_rad[i], 90 * kDegree, 1e-12);
-  }
-  for (const Alignment alignment : {Alignment::kFirstPose, Alignment::kRigid}) {
-    const SE3d T = *AlignmentOf(pair, alignment);
-    EXPECT_LE((T.Matrix() - moved.Inverse().Matrix()).norm(), 1e-12);
-    EXPECT_LE(Summarize(AbsoluteErrors(pair, T).translation_m).max, 1e-12);
-    EXPECT_LE(Summarize(AbsoluteErrors(pair, T).rotation_rad).max, 1e-12);
-  }
-}
-
-// No small motion of the best alignment makes the sum of squares smaller.
-TEST(AbsoluteErrors, RigidAlignmentIsTheBest) {
-  const std::vector<SE3d> truth = WindingDrive(500);
-  const TrajectoryPair pair = {truth, Perturbed(truth, 3), {}};
-  const SE3d T = *AlignmentOf(pair, Alignment::kRigid);
-  const auto rmse = [&](const SE3d& T_truth_estimate) {
-    return Summarize(AbsoluteErrors(pair, T_truth_estimate).translation_m).rmse;
-  };
-  EXPECT_LT(rmse(T), rmse(*AlignmentOf(pair, Alignment::kFirstPose)));
-  for (int k = 0; k < 6; ++k) {
-    for (const double step : {-1e-4, 1e-4}) {
-      Vec6 xi = Vec6::Zero();
-      xi(k) = step;
-      EXPECT_GT(rmse(T * SE3d::Exp(xi)), rmse(T));
-    }
-  }
-}
-
-TEST(AbsoluteErrors, NoRigidAlignmentOnALine) {
-  const TrajectoryPair pair = {Drive(Forward(1), 50), Drive(Forward(1.1), 50), {}};
-  EXPECT_FALSE(AlignmentOf(pair, Alignment::kRigid));
-  // One of the two is enough, whichever it is.
-  const std::vector<SE3d> winding = WindingDrive(static_cast<int>(pair.truth.size()));
-  EXPECT_TRUE(AlignmentOf({winding, winding, {}}, Alignment::kRigid));
-  EXPECT_FALSE(AlignmentOf({winding, pair.estimate, {}}, Alignment::kRigid));
-  EXPECT_FALSE(AlignmentOf({pair.truth, winding, {}}, Alignment::kRigid));
-  EXPECT_TRUE(AlignmentOf(pair, Alignment::kFirstPose));
-}
-
-// Straight on by 1 m; the estimate turns by 1 degree on the spot before every step of 1.1 m.
-TEST(RelativeErrors, ByHand) {
-  const TrajectoryPair pair = {Drive(Forward(1), 5), Drive(Yaw(kDegree) * Forward(1.1), 5), {}};
-  const PoseErrors one = RelativeErrors(pair, 1);
-  ASSERT_EQ(one.translation_m.size(), 4U);
-  for (std::size_t i = 0; i < 4; ++i) {
-    EXPECT_NEAR(one.translation_m[i],
-                std::hypot(1.1 * std::cos(kDegree) - 1, 1.1 * std::sin(kDegree)), 1e-12);
-    EXPECT_NEAR(one.rotation_rad[i], kDegree, 1e-12);
-  }
-  const PoseErrors two = RelativeErrors(pair, 2);
-  ASSERT_EQ(two.translation_m.size(), 3U);
-  const double x = 1.1 * (std::cos(kDegree) + std::cos(2 * kDegree));
-  const double y = 1.1 * (std::sin(kDegree) + std::sin(2 * kDegree));
-  EXPECT_NEAR(two.translation_m[0], std::hypot(x - 2, y), 1e-12);
-  EXPECT_NEAR(two.rotation_rad[2], 2 * kDegree, 1e-12);
-  EXPECT_TRUE(RelativeErrors(pair, 5).translation_m.empty());
-}
-
-TEST(Statistics, ByHand) {
-  const Statistics odd = Summarize({3, 1, 2});
-  EXPECT_DOUBLE_EQ(odd.rmse, std::sqrt(14.0 / 3));
-  EXPECT_DOUBLE_EQ(odd.mean, 2);
-  EXPECT_DOUBLE_EQ(odd.median, 2);
-  EXPECT_DOUBLE_EQ(odd.max, 3);
-  EXPECT_DOUBLE_EQ(Summarize({4, 1, 2, 10}).median, 3);
-}
-
-Trajectory AtTimes(const std::vector<double>& times_s) {
-  Trajectory trajectory;
-  for (const double time : times_s) {
-    trajectory.times_s.push_back(time);
-    trajectory.T_world_body.push_back(Forward(time));  // The pose tells which one it is.
-  }
-  return trajectory;
-}
-
-TEST(Associate, ByTimeOneToOne) {
-  const Trajectory truth = AtTimes({0, 0.1, 0.2, 0.3, 0.4});
-  // 0.104 and 0.099 both are nearest to 0.1: the nearer stays. 0.25 is too far from either side.
-  const Trajectory estimate = AtTimes({0.099, 0.104, 0.25, 0.301, 9});
-  const TrajectoryPair pair = Associate(truth, estimate, 0.01);
-  ASSERT_EQ(pair.truth.size(), 2U);
-  EXPECT_EQ(pair.truth[0].t().x(), 0.1);
-  EXPECT_EQ(pair.estimate[0].t().x(), 0.099);
-  EXPECT_EQ(pair.truth[1].t().x(), 0.3);
-  EXPECT_EQ(pair.estimate[1].t().x(), 0.301);
-  EXPECT_EQ(pair.times_s, (std::vector<double>{0.1, 0.3}));
-  EXPECT_THROW(Associate(truth, AtTimes({7, 8, 9}), 0.01), InputError);
-}
-
-TEST(Associate, ByIndexWhereATimeIsMissing) {
-  Trajectory truth = AtTimes({0, 1, 2});
-  truth.times_s.clear();
-  const TrajectoryPair pair = Associate(truth, AtTimes({5, 6, 7}), 0.01);
-  EXPECT_EQ(pair.estimate[2].t().x(), 7);
-  EXPECT_EQ(pair.times_s, (std::vector<double>{5, 6, 7}));
-  EXPECT_THROW(Associate(truth, AtTimes({5, 6}), 0.01), InputError);
+  EXPECT_EQ(MeanOfSpeed(errors, 2)->segments, 1);
+  EXPECT_EQ(MeanOfSpeed(errors, 2)->translation, 1);
+  EXPECT_EQ(MeanOfSpeed(errors, 4)->segments, 3);
+  EXPECT_DOUBLE_EQ(MeanOfSpeed(errors, 4)->rotation_rad_per_m, 74);
+  EXPECT_EQ(MeanOfSpeed(errors, 6)->segments, 1);
+  EXPECT_EQ(MeanOfSpeed(errors, 6)->translation, 100);
+  EXPECT_FALSE(MeanOfSpeed(errors, 8));
 }
 
 }  // namespace

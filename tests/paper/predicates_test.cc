@@ -40,6 +40,19 @@ TEST(Predicates, ArgminAtTheToleranceCounts) {
   EXPECT_TRUE(ArgminIsNear(Sampled([](double u) { return std::abs(u - 0.9); }, 31), 1));
 }
 
+// Samples at every thousandth.
+TEST(Predicates, TolerancesAreATenthAndThreeTwentieths) {
+  const auto at = [](double u_star) {
+    return Sampled([=](double u) { return std::abs(u - u_star); }, 3001);
+  };
+  for (const double side : {1.0, -1.0}) {
+    EXPECT_TRUE(ArgminIsNear(at(0.5 + 0.1 * side), 0.5));
+    EXPECT_FALSE(ArgminIsNear(at(0.5 + 0.101 * side), 0.5));
+    EXPECT_TRUE(HasLocalMinimumNear(at(0.5 + 0.15 * side), 0.5));
+    EXPECT_FALSE(HasLocalMinimumNear(at(0.5 + 0.151 * side), 0.5));
+  }
+}
+
 TEST(Predicates, ValueIsLinearBetweenSamples) {
   const Curve curve = Sampled([](double u) { return 3 * u; }, 4);
   EXPECT_DOUBLE_EQ(ValueAt(curve, 0.25), 0.75);
@@ -98,6 +111,8 @@ TEST(Predicates, FlankSlopeIsTheMeanOfBothSides) {
   const Curve curve = Sampled([](double u) { return u < 1 ? 2 * (1 - u) : 4 * (u - 1); });
   EXPECT_NEAR(FlankSlope(curve, 1), 3, 1e-12);
   EXPECT_NEAR(FlankSlope(Sampled([](double u) { return 5 * u; }), 1), 0, 1e-12);
+  // Over 0.3 to either side: 0.3^2 / 0.3.
+  EXPECT_NEAR(FlankSlope(Sampled(Basin, 301), 1), 0.3, 1e-9);
 }
 
 TEST(Predicates, MonotonicDescent) {

@@ -3,7 +3,6 @@
 
 #include <gmock/gmock.h>
 
-#include <cstdlib>
 #include <filesystem>
 #include <fstream>
 
@@ -12,11 +11,16 @@
 #include "src/io/sequences.h"
 #include "src/simulation/scenes.h"
 #include "src/simulation/simulated_sequence.h"
+#include "tests/support/run_program.h"
 
 namespace icpscape {
 namespace {
 
 namespace fs = std::filesystem;
+
+using testing_support::ExpectRefusal;
+using testing_support::Outcome;
+using testing_support::RunProgram;
 
 class Dataset : public ::testing::Test {
  protected:
@@ -133,29 +137,29 @@ TEST_F(Dataset, LeavesForeignScansAlone) {
   EXPECT_EQ(fs::file_size(Sequence() / "velodyne" / "000000.bin"), 8U);
 }
 
-// Exit code of icpscape-simulate.
-int Simulate(const std::string& flags) {
-  const std::string command =
-      std::string(ICPSCAPE_BIN_DIR) + "/icpscape-simulate " + flags + " >/dev/null 2>&1";
-  return WEXITSTATUS(std::system(command.c_str()));
-}
-
-TEST_F(Dataset, TheProgramAnswersMistakesWithItsExitCode) {
-  const std::string out = " --out=" + root_.string();
-  EXPECT_EQ(Simulate("--scene=highway" + out), 0);
-  EXPECT_EQ(Simulate("--scene=motorway" + out), 1);
-  EXPECT_EQ(Simulate(out), 1);
-  EXPECT_EQ(Simulate("--scene=highway --dropout=2" + out), 1);
-  EXPECT_EQ(Simulate("--scene=highway --range_noise_m=-1" + out), 1);
-  EXPECT_EQ(Simulate("--scene=highway --frames=0:1" + out), 1);
-  EXPECT_EQ(Simulate("--kitti_root=. --frames=5:1" + out), 1);
-  EXPECT_EQ(Simulate("--kitti_root=. --frames=1-5" + out), 1);
-  EXPECT_EQ(Simulate("--kitti_root=/nowhere" + out), 2);
-  EXPECT_EQ(Simulate("--scene=highway --out=/proc/nowhere"), 2);
+TEST_F(Dataset, TheProgramAnswersMistakesInOneSentence) {
+  const auto refuse = [&](std::vector<std::string> flags, int code, const std::string& says) {
+    flags.insert(flags.begin(), "--out=" + root_.string());
+    ExpectRefusal(RunProgram("simulate", flags), code, says);
+  };
+  refuse({"--scene=motorway"}, 1, "scene motorway: no such scene; expected one of");
+  refuse({}, 1, "expected --scene=NAME, or --kitti_root=DIR");
+  refuse({"--scene=highway", "--dropout=2"}, 1, "dropout=2: expected 0 to 0.9");
+  refuse({"--scene=highway", "--range_noise_m=-1"}, 1, "range_noise_m=-1: expected 0 to 1 m");
+  refuse({"--scene=highway", "--frames=0:1"}, 1, "--frames=0:1: expected --kitti_root");
+  refuse({"--kitti_root=.", "--frames=5:1"}, 1, "frames=5:1: expected FIRST:LAST");
+  refuse({"--kitti_root=.", "--frames=1-5"}, 1, "frames=1-5: expected FIRST:LAST");
+  EXPECT_FALSE(fs::exists(root_));
+  refuse({"--kitti_root=/nowhere", "--sequence=00"}, 2, "/nowhere/sequences/00: no such folder");
+  EXPECT_TRUE(!fs::exists(root_) || fs::is_empty(root_));
+  refuse({"--scene=highway", "--out=/proc/nowhere"}, 2, "/proc/nowhere");
 }
 
 TEST_F(Dataset, AWrittenSceneIsTheSceneItself) {
-  ASSERT_EQ(Simulate("--scene=right_turn --seed=4 --out=" + root_.string()), 0);
+  const Outcome outcome =
+      RunProgram("simulate", {"--scene=right_turn", "--seed=4", "--out=" + root_.string()});
+  ASSERT_EQ(outcome.code, 0) << outcome.err;
+  EXPECT_THAT(outcome.out, testing::HasSubstr("right_turn: 3 scans simulated, 0 kept"));
   const ScanPair pair = SimulatePair("right_turn", 4, LidarOptions(), 2);
   const ScanSequence sequence = OpenKittiSequence(root_, "right_turn");
   DroppedPoints dropped;
