@@ -9,8 +9,8 @@
 
 namespace icpscape {
 
-/// Poses T_world_body in the order of their frames; body is what the file is about: the left camera
-/// in KITTI's, often the lidar in ours.
+/// Poses T_world_body in the order of their frames; body is the left camera in KITTI's files, often
+/// the lidar in ours.
 struct Trajectory {
   std::vector<SE3d> T_world_body;
   std::vector<double> times_s;  ///< One per pose, increasing; empty where the file has none.
@@ -24,8 +24,8 @@ struct Trajectory {
 /// has a coordinate beyond 1e9 m, and where there is no pose or no regular file.
 Trajectory ReadTrajectory(const std::filesystem::path& path);
 
-/// KITTI's format, all poses as they are. Translations read back exactly, rotations to rounding
-/// (they are normalised on reading). Throws InputError where the file cannot be written.
+/// KITTI's format, all poses unchanged. Translations read back exactly, rotations to rounding (they
+/// are normalised on reading). Throws InputError where the file cannot be written.
 void WriteKittiTrajectory(const std::filesystem::path& path, const std::vector<SE3d>& T_world_body);
 
 /// TUM's format, as above. The trajectory must have times (CHECKed).

@@ -220,7 +220,7 @@ TEST(Odometry, RefusesOptionsThatCannotGoTogether) {
     options.filters.octree_voxel_m = 0.1;
     EXPECT_THAT(message(options), HasSubstr(mode == OdometryMode::kScanToScan
                                                 ? "nothing was thrown"
-                                                : "maps of edges and planar points are none"));
+                                                : "edges and planar points are matched to maps"));
   }
   OdometryOptions options = Options(OdometryMode::kScanToMap);
   options.weights = {1, 2};
