@@ -12,8 +12,8 @@
 
 namespace icpscape {
 
-/// Folder of KITTI odometry data: $ICPSCAPE_KITTI_ROOT, or ../shared/data/kitti beside the
-/// checkout. The data are no part of the project.
+/// Folder of KITTI odometry data, which are no part of the project: the environment variable
+/// ICPSCAPE_KITTI_ROOT, or a folder beside the checkout.
 inline std::filesystem::path KittiRoot() {
   const char* root = std::getenv("ICPSCAPE_KITTI_ROOT");
   return root != nullptr ? std::filesystem::path(root)
