@@ -87,7 +87,7 @@ TEST(FilterChain, IsItsFiltersOneAfterTheOther) {
     EXPECT_EQ(kept.target.size(), target.size());
     fewest = std::min(fewest, expected_source.size());
   }
-  EXPECT_GT(fewest, 100U);  // No comparison was of nothing.
+  EXPECT_GT(fewest, 100U);  // No comparison was of empty masks.
 }
 
 TEST(FilterChain, NamesTheFilterThatLeavesNothing) {

@@ -203,8 +203,8 @@ TEST_P(BothModes, StopsByTheCost) {
   EXPECT_EQ(hardly.iterates.size(), expected + 1);
 }
 
-// Gauss-Newton as one writes it by hand, on the same objective: as many matching passes, and the
-// same pose up to the step that neither takes.
+// Gauss-Newton written by hand, on the same objective: as many matching passes, and the same pose
+// up to the last step, which both leave out.
 TEST(Minimizer, NeedsNoMoreMatchingPassesThanGaussNewtonByHand) {
   const ClosestPointMatcher matcher(Room().source, Room().target);
   for (const char* metric : {"point_to_plane", "symmetric"}) {

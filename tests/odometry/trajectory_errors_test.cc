@@ -40,7 +40,7 @@ std::vector<SE3d> WindingDrive(int count) {
   return poses;
 }
 
-// An odometry that errs at random in every step.
+// An odometry with random errors in every step.
 std::vector<SE3d> Perturbed(const std::vector<SE3d>& truth, unsigned seed) {
   std::mt19937 engine(seed);
   const auto noise = [&] { return static_cast<double>(engine()) / 2147483648.0 - 1; };

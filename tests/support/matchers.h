@@ -33,7 +33,8 @@ inline std::unique_ptr<Matcher> MatcherFor(const std::string& metric, const Poin
 }
 
 /// Pairs source point i with target point i at every pose, or with nothing where `unmatched` says
-/// so, and all of them with one line or patch: what a metric makes of a pair can be told by hand.
+/// so, and all of them with one line or patch: what a metric makes of a pair can be computed by
+/// hand.
 class FixedMatcher final : public Matcher {
  public:
   FixedMatcher(const PointCloud& source, const PointCloud& target,

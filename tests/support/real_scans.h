@@ -27,7 +27,7 @@ inline PointCloud KittiScan(const std::string& sequence, int frame) {
 
 }  // namespace icpscape
 
-/// First line of a test on real scans.
+/// The first line of every test on real scans.
 #define ICPSCAPE_SKIP_WITHOUT_KITTI()                        \
   if (!std::filesystem::is_directory(icpscape::KittiRoot())) \
   GTEST_SKIP() << "no KITTI data: set ICPSCAPE_KITTI_ROOT to a folder with sequences/ and poses/"
