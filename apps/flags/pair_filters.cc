@@ -62,9 +62,9 @@ PreparedPair FilterFromFlags(const PreparedPair& scans, const ScanPair& pair, Ma
   if (!options.Any()) {
     return scans;
   }
-  const SE3d T_e = options.NeedEstimate() ? Estimate(pair, manifest) : SE3d();
+  const SE3d T_predicted = options.NeedEstimate() ? Estimate(pair, manifest) : SE3d();
   const KeptPoints kept =
-      ApplyFilters(scans.source.cloud(), scans.target.cloud(), T_e, options,
+      ApplyFilters(scans.source.cloud(), scans.target.cloud(), T_predicted, options,
                    [&](const std::string& name, const KeptPoints& kept_here) {
                      const double source = CountKept(kept_here.source).Fraction();
                      const double target = CountKept(kept_here.target).Fraction();

@@ -25,8 +25,9 @@ struct OctreeFilterOptions {
 /// PointCloud::Transformed. The braking argument holds for surfaces along the motion: of those
 /// across it, an offset of half a voxel moves half into the next one.
 ///
-/// The filter keeps what agrees under T_e, so it favours T_e itself. Throws UsageError unless
-/// voxel_size_m is a length above 0, InputError for a point beyond 2^20 voxels from the origin.
+/// The filter keeps what agrees under the estimate, so it favours the estimate itself. Throws
+/// UsageError unless voxel_size_m is a length above 0, InputError for a point beyond 2^20 voxels
+/// from the origin.
 KeptPoints OctreeCorrespondenceFilter(const PointCloud& source, const PointCloud& target,
                                       const SE3d& T_target_source_estimate,
                                       const OctreeFilterOptions& options);

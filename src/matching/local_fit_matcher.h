@@ -16,8 +16,8 @@ enum class EigenvalueScale { kScatter, kOverN, kOverNMinusOne };
 EigenvalueScale EigenvalueScaleFromName(const std::string& name);
 const std::vector<std::string>& EigenvalueScaleNames();
 
-/// Which point stands for the line or patch: the neighbours' mean (LOAM's mapping stage, A-LOAM) or
-/// the nearest of them.
+/// The anchor of the line or patch: the neighbours' mean (LOAM's mapping stage, A-LOAM) or the
+/// nearest of them.
 enum class FitAnchor { kCentroid, kNearest };
 FitAnchor FitAnchorFromName(const std::string& name);
 const std::vector<std::string>& FitAnchorNames();
