@@ -76,7 +76,7 @@ void Covariance() {
 int main(int argc, char** argv) {
   return icpscape::RunApp(
       argc, argv,
-      "says how sure a registration is: covariances at the solution, directions that degenerate, "
-      "and, on simulated scenes, whether the covariances are right (NEES over Monte-Carlo draws).",
+      "says how sure a registration is: covariances at the solution, degenerate directions, and, "
+      "on simulated scenes, whether the covariances are right (NEES over Monte-Carlo draws).",
       icpscape::Covariance);
 }

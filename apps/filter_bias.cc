@@ -16,8 +16,8 @@
 
 DECLARE_double(voxel_m);
 DECLARE_string(initial);
-DEFINE_double(translation_range_m, 0.3, "Errors of T_e along the path, to either side (m).");
-DEFINE_double(yaw_range_deg, 0.5, "Errors of T_e in yaw, to either side (degrees).");
+DEFINE_double(translation_range_m, 0.3, "Largest error of the predicted pose along the path (m).");
+DEFINE_double(yaw_range_deg, 0.5, "Largest error of the predicted pose in yaw (degrees).");
 DEFINE_int32(steps, 7, "Errors tried per sweep, both ends included.");
 static const icpscape::FlagMark steps_mark(&FLAGS_steps, icpscape::kShown);
 DEFINE_int32(samples, 41, "Poses per search of a minimum, over twice the range of the errors.");
@@ -30,9 +30,9 @@ void CheckFlags() {
   FeaturesFromFlags();
   ObjectiveSetFromFlags();
   RequireUnchanged([](const Flag& flag) { return flag.Has(kCostOnly); },
-                   "its default, since the paper's RMSE knows no loss");
+                   "its default, since the paper's RMSE has no loss");
   RequireFlag(FLAGS_initial == "identity", "initial", FLAGS_initial,
-              "identity, since the poses that are searched have no start");
+              "identity, since the search for minima needs no start");
   RequireFlag(FLAGS_voxel_m == 0, "voxel_m", Number(FLAGS_voxel_m),
               "0, since the filter's removal is counted on labelled points, and centroids have no "
               "labels");
@@ -53,7 +53,7 @@ PreparedPair FilteredWith(const SE3d& T_estimate, const PreparedPair& scans) {
                       ThreadsFromFlags());
 }
 
-// The minima of all metrics under filters with every error of T_e, and (as "unfiltered") without.
+// The minima of all metrics, filtered with each error of the predicted pose and unfiltered.
 FilterSweep SweepEstimate(const PreparedPair& scans, const ErrorAxis& axis, Table* table) {
   FilterSweep sweep = {axis, MetricsFromFlags(), {}, {}, {}};
   const auto minima_of = [&](const PreparedPair& pair, const std::string& error) {
@@ -111,7 +111,7 @@ int main(int argc, char** argv) {
                            "0.1");  // The paper's: here the filter is the subject.
   return icpscape::RunApp(
       argc, argv,
-      "asks whether the Octree Correspondence Filter finds the motion or returns its prior T_e: "
-      "where each metric's minimum goes when T_e is moved. Slope 1 is the prior, 0 the data.",
+      "asks whether the Octree Correspondence Filter finds the motion or returns its predicted "
+      "pose: slope 1 means that each minimum follows the predicted pose, slope 0 that it stays.",
       icpscape::FilterBias);
 }

@@ -18,10 +18,10 @@
 #include "apps/run/run.h"
 
 DEFINE_string(reference, "ground_truth",
-              "Pose at u = 1: ground_truth as given, or refined by point-to-plane.");
+              "Reference, the pose at u = 1: ground_truth, or refined from it by point-to-plane.");
 DEFINE_bool(iterates, false,
-            "Minimises each metric from --initial as well, and draws the iterates at their nearest "
-            "u with their distance from the path.");
+            "Also minimises each metric from --initial, and draws the iterates at their nearest u "
+            "with their distance from the path.");
 static const icpscape::FlagMark iterates_mark(&FLAGS_iterates, icpscape::kShown);
 
 namespace icpscape {

@@ -42,7 +42,7 @@ struct Variant {
 constexpr Variant kVariants[] = {
     {"data filtering", "voxel grid", "--voxel_m", "not in the paper"},
     {"data filtering", "artificial blind spot", "--artificial_blind_spot_m", "paper sec. 4.2"},
-    {"data filtering", "ego blind spot (ego overlap) filter", "--ego_filter_m", "paper sec. 2.6"},
+    {"data filtering", "ego blind spot filter", "--ego_filter_m", "paper sec. 2.6"},
     {"data filtering", "Octree Correspondence Filter", "--octree_voxel_m", "paper sec. 2.7"},
     {"data filtering", "edge and planar points", "--smoothness", "paper sec. 2.4, LOAM"},
     {"correspondence", "closest point", "(default)", "Besl & McKay 1992"},
@@ -83,7 +83,7 @@ void PrintTable(const std::vector<std::vector<std::string>>& rows) {
   }
 }
 
-// A formula as code; Markdown's tables want their bars escaped even there.
+// A formula as code; Markdown's tables want | escaped even there.
 std::string FormulaText(const std::string& formula) {
   if (!FLAGS_markdown) {
     return formula;

@@ -14,11 +14,11 @@
 #include "apps/run/run.h"
 #include "src/common/text.h"
 
-DEFINE_bool(restart, false, "Begins anew where an earlier run has left a journal in --out.");
+DEFINE_bool(restart, false, "Begins again, without the journal of an earlier run in --out.");
 static const icpscape::FlagMark restart_mark(&FLAGS_restart, icpscape::kAside);
-DEFINE_double(write_map_voxel_m, 0.5,
-              "Voxel size (m) of map.ply, which has one point per voxel of the whole drive; 0 "
-              "writes none.");
+DEFINE_double(
+    write_map_voxel_m, 0.5,
+    "Voxel size (m) of map.ply, which has one point per voxel of the whole drive; 0: none.");
 static const icpscape::FlagMark write_map_mark(&FLAGS_write_map_voxel_m, icpscape::kAside);
 
 namespace icpscape {
@@ -46,7 +46,7 @@ void Drive(ResumableOdometry* odometry) {
               << std::endl;
   }
   {
-    // Apart: one is faster than the other, and the time that remains is told from the rate.
+    // On its own: replay is faster, and the remaining time is computed from the rate.
     Progress progress("scans replayed", odometry->num_known());
     odometry->Replay([&](int done) { progress.Show(done); });
   }

@@ -58,7 +58,7 @@ void EvaluateScene(const std::vector<Figure>& figures, const CurveOptions& optio
             << scans.source.features()->num_edge << " edges), target "
             << scans.target.cloud().size() << " points\n";
   ReportPose("  motion", "motion_" + first.scene, T_ground_truth, manifest);
-  ReportPose("  predicted pose (T_e), off", "predicted_off_" + first.scene,
+  ReportPose("  predicted pose, off", "predicted_off_" + first.scene,
              T_ground_truth.Inverse() * T_predicted, manifest);
   std::vector<FigureCurve> curves;
   std::set<Variant> variants;

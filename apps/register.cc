@@ -19,7 +19,7 @@
 #include "src/common/error.h"
 #include "src/io/point_files.h"
 
-DEFINE_int32(starts, 0, "Random starts about the reference, to measure the success rate.");
+DEFINE_int32(starts, 0, "Number of random starts about the reference, for the success rate.");
 static const icpscape::FlagMark starts_mark(&FLAGS_starts, icpscape::kAside);
 
 namespace icpscape {

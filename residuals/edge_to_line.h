@@ -7,8 +7,8 @@
 namespace icpscape {
 
 /// Edge point to edge line [Zhang & Singh 2014, eq. 2; paper sec. 2.4.1].
-///   r(T) = d x (R p_s + t - a)                   3x1, metres, |d| = 1
-///   J    = skew(d) R [ -skew(p_s) | I ]          3x6, T <- T Exp([omega; v])
+///   r(T) = d x (R p + t - a)                     3x1, metres, |d| = 1
+///   J    = skew(d) R [ -skew(p) | I ]            3x6, T <- T Exp([omega; v])
 /// |r| is the distance from the line. As a vector it is smooth everywhere, also on the line; the
 /// paper sums |r|, the solver 1/2 |r|^2. Blind to motion along the line and to turns about the
 /// point; the sign of d is irrelevant.
@@ -46,7 +46,7 @@ using EdgeToLine = EdgeToLineOf<double>;
 
 namespace internal {
 
-// Of a Jet the root has no derivative at 0, and 1/0 has none for anybody: both are 0 there.
+// The root of a Jet has no derivative at 0, and 1/0 has no value: both are 0 there.
 template <class S>
 S RootOrZero(const S& x) {
   using std::sqrt;
@@ -60,8 +60,8 @@ S InverseOrZero(const S& x) {
 }  // namespace internal
 
 /// The same distance as a number [as in F-LOAM]: |d x (T p - a)|.
-///   r(T) = |w|,  w = d x (R p_s + t - a)         1x1, metres
-///   J    = (w / |w|)^T skew(d) R [ -skew(p_s) | I ];  0 on the line
+///   r(T) = |w|,  w = d x (R p + t - a)           1x1, metres
+///   J    = (w / |w|)^T skew(d) R [ -skew(p) | I ];  0 on the line
 /// Not smooth on the line (r = 0), where a real minimum lies: prefer EdgeToLine.
 template <class Scalar>
 struct EdgeToLineDistanceOf {

@@ -6,8 +6,8 @@
 
 namespace icpscape {
 
-/// Sums over correspondences of what a Gauss-Newton step needs: the door for any other solver, and
-/// the 28 numbers that SquareRootCost hands to Ceres.
+/// Sums over correspondences of what a Gauss-Newton step needs: for solvers of your own;
+/// SquareRootCost hands these 28 numbers to Ceres.
 ///   cost     = 1/2 sum rho(|r|^2)           (m^2 for metric residuals)
 ///   gradient = sum rho' J^T r               d cost / d xi, T <- T Exp([omega; v])
 ///   hessian  = sum rho' J^T J               Gauss-Newton, as Ceres scales it where rho'' <= 0

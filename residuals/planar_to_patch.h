@@ -8,14 +8,14 @@
 namespace icpscape {
 
 /// Planar point to planar patch as the paper prints it [paper sec. 2.4.2].
-///   r(T) = (R p_s + t - q) / A,  A = |(q_j - q_k) x (q_j - q_l)|        3x1, 1/m
-///   J    = R [ -skew(p_s) | I ] / A                                     3x6
+///   r(T) = (R p + t - q) / A,  A = |(q_j - q_k) x (q_j - q_l)|          3x1, 1/m
+///   J    = R [ -skew(p) | I ] / A                                       3x6
 /// The paper's term is |[T p - q; n]| / |n| = sqrt(1 + |r|^2), of which it subtracts one: that is
 /// 1/2 rho(|r|^2) of SoftLOneLoss(1), which belongs to this metric unless another loss is asked
 /// for. (Written as sqrt(1 + |r|^2) - 1 it would have no Jacobian at a match.) It is not a plane
-/// metric: a slide within the plane costs as much as the same distance off it; and it depends on
-/// the size of the virtual triangle, A being twice its area. LOAM's own distance is PlanarToPlane.
-/// Smooth everywhere.
+/// metric: a slide within the plane costs as much as the same distance off it. It depends on the
+/// size of the virtual triangle: A is twice its area. LOAM's own distance is PlanarToPlane. Smooth
+/// everywhere.
 template <class Scalar>
 struct PlanarToPatchOf {
   static constexpr char kName[] = "planar_to_patch";

@@ -7,9 +7,9 @@
 namespace icpscape {
 
 /// Point-to-plane distance [Chen & Medioni 1992; paper sec. 2.2].
-///   r(T) = n_t . (R p_s + t - q_t)             1x1, metres
-///   J    = n_t^T R [ -skew(p_s) | I ]          1x6, T <- T Exp([omega; v])
-/// Smooth everywhere; the sign of n_t is irrelevant; blind to motion within the plane.
+///   r(T) = n_q . (R p + t - q)                 1x1, metres
+///   J    = n_q^T R [ -skew(p) | I ]            1x6, T <- T Exp([omega; v])
+/// n_q is n_target. Smooth everywhere; its sign is irrelevant; blind to motion within the plane.
 template <class Scalar>
 struct PointToPlaneOf {
   static constexpr char kName[] = "point_to_plane";

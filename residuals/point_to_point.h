@@ -7,8 +7,8 @@
 namespace icpscape {
 
 /// Point-to-point distance [Besl & McKay 1992; paper sec. 2.1].
-///   r(T) = R p_s + t - q_t                 3x1, metres
-///   J    = R [ -skew(p_s) | I ]            3x6, T <- T Exp([omega; v])
+///   r(T) = R p + t - q                     3x1, metres
+///   J    = R [ -skew(p) | I ]              3x6, T <- T Exp([omega; v])
 /// Smooth everywhere. Null space of one pair: rotations about the point.
 template <class Scalar>
 struct PointToPointOf {

@@ -22,7 +22,7 @@ using AllMetrics =
     MetricList<PointToPoint, PointToPlane, Symmetric, SymmetricRotated, SymmetricSplit, TwoPlane,
                EdgeToLine, EdgeToLineDistance, PlanarToPatch, PlanarToPlane>;
 
-/// Stands for a metric type in a call: decltype(tag)::Metric.
+/// Passes a metric type to a call: decltype(tag)::Metric.
 template <class M>
 struct MetricTag {
   using Metric = M;

@@ -5,25 +5,25 @@
 #include "residuals/correspondence.h"
 
 // Four metrics go by the name "symmetric"; they differ in what turns with T. With
-// e = R p_s + t - q_t and both normals oriented alike (towards the sensor):
+// e = R p + t - q, n_p = n_source and n_q = n_target, each turned towards its sensor:
 //
-//   symmetric          e . (n_s + n_t)                 as the paper prints it: normals stay put
-//   symmetric_rotated  e . (R n_s + n_t)               Rusinkiewicz's split form, normals turned
-//   symmetric_split    e . R^1/2 (n_s + n_t)           Rusinkiewicz's split form, normals fixed
-//   two_plane          [ e . n_t ; e . R n_s ]         both point-to-plane distances
+//   symmetric          e . (n_p + n_q)                 as the paper prints it: normals do not turn
+//   symmetric_rotated  e . (R n_p + n_q)               Rusinkiewicz's split form, normals turned
+//   symmetric_split    e . R^1/2 (n_p + n_q)           Rusinkiewicz's split form, normals fixed
+//   two_plane          [ e . n_q ; e . R n_p ]         both point-to-plane distances
 //
 // Rusinkiewicz 2019 splits the rotation, R = Q Q, and writes (Q p - Q^-1 q + t') . n with t = Q t'.
-// Multiplied by Q that is e . Q n: with n = Q n_s + Q^-1 n_t the rotated form, with
-// n = n_s + n_t the split form. |n_s + n_t| is near 2, so the first three read about twice the
+// Multiplied by Q that is e . Q n: with n = Q n_p + Q^-1 n_q the rotated form, with
+// n = n_p + n_q the split form. |n_p + n_q| is near 2, so the first three read about twice the
 // point-to-plane distance.
 
 namespace icpscape {
 
 /// Symmetric objective as printed [paper sec. 2.3]: T acts on the point only.
-///   r(T) = (R p_s + t - q_t) . (n_s + n_t)        1x1, metres (about twice the distance)
-///   J    = m^T R [ -skew(p_s) | I ],  m = n_s + n_t
-/// Smooth everywhere. n_s is added unturned, so it depends on the choice of frames: turning the
-/// target frame alone changes it.
+///   r(T) = (R p + t - q) . (n_p + n_q)            1x1, metres (about twice the distance)
+///   J    = m^T R [ -skew(p) | I ],  m = n_p + n_q
+/// Smooth everywhere. n_p is added without R, so the value depends on the choice of frames: it
+/// changes when only the target frame turns.
 template <class Scalar>
 struct SymmetricOf {
   static constexpr char kName[] = "symmetric";
@@ -35,7 +35,7 @@ struct SymmetricOf {
 
   Vec<Scalar, 3> p_source;
   Vec<Scalar, 3> q_target;
-  Vec<Scalar, 3> n_sum;  ///< n_source + n_target, components added as they are.
+  Vec<Scalar, 3> n_sum;  ///< n_source + n_target, each in its own frame.
 
   static SymmetricOf From(const CorrespondenceOf<Scalar>& c) {
     return {c.p_source, c.q_target, c.n_source + c.n_target};
@@ -58,8 +58,8 @@ using Symmetric = SymmetricOf<double>;
 
 /// Symmetric objective whose source normal turns with the point [Rusinkiewicz 2019, eq. 10, split
 /// with rotated normals].
-///   r(T) = e . (R n_s + n_t),  e = R p_s + t - q_t              1x1, metres
-///   J    = m^T R [ -skew(p_s) | I ] + [ -e^T R skew(n_s) | 0 ],  m = R n_s + n_t
+///   r(T) = e . (R n_p + n_q),  e = R p + t - q                  1x1, metres
+///   J    = m^T R [ -skew(p) | I ] + [ -e^T R skew(n_p) | 0 ],  m = R n_p + n_q
 /// Smooth everywhere; invariant to the choice of either frame.
 template <class Scalar>
 struct SymmetricRotatedOf {
@@ -100,8 +100,8 @@ using SymmetricRotated = SymmetricRotatedOf<double>;
 
 /// Symmetric objective with the rotation split between the clouds and the normals fixed
 /// [Rusinkiewicz 2019, eq. 9]: each cloud turns half way, so the sum of normals turns by R^1/2.
-///   r(T) = e . H m,  H = R^1/2, m = n_s + n_t, e = R p_s + t - q_t       1x1, metres
-///   J    = m^T H^T R [ -skew(p_s) | I ] + [ -e^T H skew(m) M | 0 ],
+///   r(T) = e . H m,  H = R^1/2, m = n_p + n_q, e = R p + t - q           1x1, metres
+///   J    = m^T H^T R [ -skew(p) | I ] + [ -e^T H skew(m) M | 0 ],
 ///   M    = (I + skew(h_v) / h_w) / 2,  [h_w; h_v] the quaternion of H
 /// M is the derivative of Log(H) with respect to omega: the quotient of right Jacobians
 /// J_r(phi/2) J_r(phi)^-1 / 2 collapses to tan(theta/4). Not smooth where R turns by pi (H jumps).
@@ -156,9 +156,9 @@ using SymmetricSplit = SymmetricSplitOf<double>;
 
 /// Both point-to-plane distances of a pair, stacked (the form that Rusinkiewicz 2019 compares
 /// with).
-///   r(T) = [ e . n_t ; e . R n_s ],  e = R p_s + t - q_t                2x1, metres
-///   J    = [ n_t^T R [ -skew(p_s) | I ] ;
-///            n_s^T [ -skew(p_s) | I ] + [ (n_s x b)^T | 0 ],  b = R^T e ]
+///   r(T) = [ e . n_q ; e . R n_p ],  e = R p + t - q                    2x1, metres
+///   J    = [ n_q^T R [ -skew(p) | I ] ;
+///            n_p^T [ -skew(p) | I ] + [ (n_p x b)^T | 0 ],  b = R^T e ]
 /// Smooth everywhere; signs of the normals are irrelevant; invariant to the choice of either frame.
 template <class Scalar>
 struct TwoPlaneOf {

@@ -1,10 +1,9 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: BSD-3-Clause
-# Compares icpscape with PCL, nanoflann, Open3D and loops by hand, and prints the ratios with the
-# goals beside them:
+# Compares icpscape with PCL, nanoflann, Open3D and loops by hand, and prints the ratios of times:
 #   tools/benchmark.sh [--kitti_root=DIR]             on simulated scenes and KITTI 00/95 and 07/4;
 #                                                     writes docs/benchmarks.md
-#   tools/benchmark.sh [--kitti_root=DIR] --quick     the same roughly, into out/benchmarks alone
+#   tools/benchmark.sh [--kitti_root=DIR] --quick     the same roughly, only into out/benchmarks
 #   tools/benchmark.sh --scaling [--quick]            cost over points, poses and threads; writes
 #                                                     docs/scaling.md and its picture
 # Exit code 3: two sides computed different answers.

@@ -1,7 +1,7 @@
 #!/usr/bin/python3
 # SPDX-License-Identifier: BSD-3-Clause
 """Turns the results of icpscape_benchmarks (Google Benchmark's JSON, one file per pair of scans and
-SIMD level) into a table of ratios with the goals beside them: as text, and as a Markdown document.
+SIMD level) into tables of ratios: as text, and as a Markdown document.
 """
 import argparse
 import json
@@ -15,7 +15,7 @@ PACKAGES = {"PCL": "libpcl-dev", "nanoflann": "libnanoflann-dev", "Open3D": "lib
 class Row:
     """One comparison on one pair of scans."""
 
-    def __init__(self, entry, simd):  # simd: the level it was told to run at, if any.
+    def __init__(self, entry, simd):  # simd: "", or the level if it is not the widest.
         self.name = entry["name"].split("/iterations:")[0]
         self.error = entry.get("error_message", "")
         self.simd = simd
@@ -25,32 +25,21 @@ class Row:
         self.peer_ms = entry.get("peer_ms")
         self.ratio = entry.get("ratio")
         self.quartiles = entry.get("ratio_q1"), entry.get("ratio_q3")
-        self.goal = entry.get("goal", 0)
+        self.is_main = entry.get("is_main", 0) or self.error
 
     def key(self):
         return self.name, self.simd
 
-    def goal_text(self):
-        if not self.goal:
-            return ""
-        if self.goal < 1:  # No more than so many times the peer's time.
-            return f"{self.goal:.2f} (time at most {1 / self.goal:.2f}x)"
-        return f"{self.goal:g}"
-
-    def verdict(self):
-        if self.error:
-            return "ANSWERS DIFFER"
-        if not self.goal:
-            return ""
-        return "reached" if self.ratio >= self.goal else "short"
+    def ratio_text(self):
+        return "**answers differ**" if self.error else number(self.ratio)
 
     def cells(self):
         spread = "{:.2f} to {:.2f}".format(*self.quartiles) if self.ratio else ""
         return [self.title, milliseconds(self.ours_ms), self.peer, milliseconds(self.peer_ms),
-                number(self.ratio), spread, self.goal_text(), self.verdict()]
+                self.ratio_text(), spread]
 
 
-HEADER = ["work", "icpscape, ms", "peer", "peer, ms", "ratio", "quartiles", "goal", ""]
+HEADER = ["work", "icpscape, ms", "peer", "peer, ms", "ratio", "quartiles"]
 
 
 class Pair:
@@ -84,7 +73,7 @@ def read(paths):
         simd = "" if context["simd"] == context["widest_simd"] else context["simd"]
         pair.rows += [Row(entry, simd) for entry in results["benchmarks"]]
     for pair in pairs.values():
-        pair.rows.sort(key=lambda row: row.simd)  # Stable: told none first.
+        pair.rows.sort(key=lambda row: row.simd)  # Stable: the widest level first.
     return list(pairs.values())
 
 
@@ -106,17 +95,15 @@ def markdown_table(header, lines):
     return out
 
 
-def goals_table(pairs):
-    """One line per goal, one column per pair."""
+def main_table(pairs):
+    """One line per main row, one column per pair."""
     lines = {}
     for i, pair in enumerate(pairs):
         for row in pair.rows:
-            if row.goal or row.error:
-                line = lines.setdefault(row.key(), [row.title, row.peer, row.goal_text()]
-                                        + [""] * len(pairs))
-                line[3 + i] = row.error and row.verdict() or \
-                    number(row.ratio) + ("" if row.ratio >= row.goal else " **short**")
-    return markdown_table(["work", "peer", "goal"] + [pair.short_title() for pair in pairs],
+            if row.is_main:
+                line = lines.setdefault(row.key(), [row.title, row.peer] + [""] * len(pairs))
+                line[2 + i] = row.ratio_text()
+    return markdown_table(["work", "peer"] + [pair.short_title() for pair in pairs],
                           lines.values())
 
 
@@ -148,17 +135,17 @@ def machine_lines(context):
 def document(pairs, command):
     context = pairs[0].context
     out = ["# Benchmarks", "",
-           f"Written by `{command}`; do not edit. Ratios are the time of the peer by the time of "
-           "icpscape, on the same data and with the same answer (which is checked: a difference "
-           "fails the run). The goals were set before the code was written.", ""]
+           f"Written by `{command}`; do not edit. A ratio is the time of the peer divided by the "
+           "time of icpscape, on the same data: above 1 icpscape is faster. Both sides must give "
+           "the same answer; if they differ, the run fails.", ""]
     out += machine_lines(context)
     out += ["",
-            f"The two sides of a row run in turn, {context['rounds']} times; times are medians, "
-            "the ratio is the median of the rounds' ratios, with its quartiles. Trust ratios, not "
-            f"times. icpscape runs at {context['widest_simd']}, the machine's widest SIMD level, "
-            "unless the row names another.", "",
-            "## The goals", ""]
-    out += goals_table(pairs)
+            f"The two sides of a row run in turn, {context['rounds']} times. Times are medians; the "
+            "ratio is the median of the ratios of the rounds, with its quartiles. Trust the ratios "
+            f"rather than the times. icpscape runs at {context['widest_simd']}, the widest SIMD "
+            "level of the machine, unless the row names another.", "",
+            "## The main ratios", ""]
+    out += main_table(pairs)
     for pair in pairs:
         out += ["", f"## {pair.title}", "", f"{pair.points}.", ""]
         out += markdown_table(HEADER, [row.cells() for row in pair.rows])

@@ -7,7 +7,7 @@
 RUN is a name for the run, REFERENCE and CHECKOUT are its two output folders. Compared are tables
 (.csv, .txt), clouds (.ply), simulated scans (.bin, .label, .ring) and the results of manifest.json
 that both have. Prints one line if all is equal, else one line per difference, and ends with 1.
-Files, columns and results that CHECKOUT alone has are named, and are no difference.
+Files, columns and results that only CHECKOUT has are named, and are no difference.
 tools/compare_with_release.sh calls it.
 """
 import csv

@@ -9,14 +9,14 @@
 # COMMIT is the first release unless given. Its programs and results stay in build/compare, for the
 # next time. --quick: a subset, in about a minute. --only: the runs with TEXT in their names.
 # --reference: a checkout of COMMIT that is already built. Runs on real scans need KITTI data:
-# --kitti_root, ICPSCAPE_KITTI_ROOT, or ../shared/data/kitti beside the checkout.
+# --kitti_root, or the environment variable ICPSCAPE_KITTI_ROOT.
 set -euo pipefail
 
 # Flags that were renamed: now, and then. The old name is used where a program lacks the new one.
 declare -A old_name=()
 
 commit=638f9f9 quick=false only='' reference=''
-kitti=${ICPSCAPE_KITTI_ROOT:-$(dirname "$0")/../../shared/data/kitti}
+kitti=${ICPSCAPE_KITTI_ROOT:-}
 for argument in "$@"; do
   case "$argument" in
     --quick) quick=true ;;
@@ -34,7 +34,7 @@ done
 [ -d "$kitti" ] && kitti=$(realpath "$kitti") || kitti=''
 cd "$(dirname "$0")/.."
 
-# Programs alone, from what is installed.
+# Only the programs, from what is installed.
 build() {
   mkdir -p "$1/build"
   (cd "$1" && cmake --preset release -Wno-dev "${@:2}" >build/configure.log 2>&1) ||
@@ -132,7 +132,7 @@ if [ -n "$kitti" ]; then
     input[kitti_00_$frame]="--kitti_root=$kitti --sequence=00 --frame=$frame"
   done
 else
-  echo "no KITTI data: simulated scans alone"
+  echo "no KITTI data: only simulated scans"
 fi
 
 mapfile -t names < <(printf '%s\n' "${!input[@]}" | sort)

@@ -1,8 +1,8 @@
 #!/usr/bin/python3
 # SPDX-License-Identifier: BSD-3-Clause
-"""Draws filter_bias.csv: where every metric's minimum goes when the filter's estimate is moved.
+"""Draws filter_bias.csv: every metric's minimum over the error of the filter's predicted pose.
 
-On the diagonal the filter returns its own estimate; on the horizontal axis it finds the motion.
+On the diagonal the filter returns its predicted pose; on the horizontal axis it finds the motion.
 """
 import argparse
 import csv
@@ -30,14 +30,14 @@ def main():
     for axes, (sweep, metrics) in zip(panels[0], curves.items()):
         ends = [point[0] for point in next(iter(metrics.values()))]
         axes.plot([ends[0], ends[-1]], [ends[0], ends[-1]], color="0.7", linewidth=4,
-                  label="its own prior (slope 1)")
+                  label="the predicted pose (slope 1)")
         axes.axhline(0, color="0.4", linewidth=0.8)
         styles = styles_of(metrics)
         for metric, points in metrics.items():
             label, color, style = styles[metric]
             axes.plot(*zip(*points), style, marker="o", markersize=3, linewidth=1.3, color=color,
                       label=label)
-        axes.set_xlabel(f"error of the filter's estimate, {sweep.replace('_', ' ')} ({units[sweep]})")
+        axes.set_xlabel(f"error of the predicted pose, {sweep.replace('_', ' ')} ({units[sweep]})")
         axes.set_ylabel(f"error of the minimum ({units[sweep]})")
     panels[0][0].legend(frameon=False, fontsize=8)
     figure.suptitle(arguments.title, fontsize=10)

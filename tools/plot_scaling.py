@@ -126,7 +126,7 @@ def poses_table(poses):
 
 
 def document(sizes, poses, picture, command):
-    out = ["# How the cost grows", "",
+    out = ["# How do time and memory grow?", "",
            f"Written by `{command}`; do not edit. Simulated scans of the straight street, whose "
            "lidar fires more or less often. Times are medians; an exponent of 1 is linear growth.",
            ""]

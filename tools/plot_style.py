@@ -31,7 +31,7 @@ LABELS = {
 
 
 def read_groups(path, group):
-    """The table's numbers by what stands in the column `group`, and then by column: lists of floats.
+    """The table's numbers by the value in the column `group`, and then by column: lists of floats.
     Without that column all rows are one group, "".
     """
     groups = defaultdict(lambda: defaultdict(list))

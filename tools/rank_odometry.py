@@ -6,9 +6,8 @@
 
 Simulates a drive along the poses of a KITTI sequence into out/drive (scans that are there are
 kept), runs icpscape-odometry on it for every variant, and prints t_err, r_err, ATE and the median
-time per scan. Beside them stands what the landscapes of scan pairs along the drive predict: the
-mean of u* - 1, weighted by the length of the motion, is the share by which a variant misjudges the
-way from scan to scan.
+time per scan. The last column is from landscapes of pairs of scans along the drive: the mean of
+u* - 1, weighted by the length of the motion. It is a mean over the drive; single pairs vary.
 """
 import argparse
 import csv
@@ -20,7 +19,7 @@ import subprocess
 import sys
 
 SCAN_TO_SCAN = ["--mode=scan_to_scan"]
-# Name, what is measured, flags that landscapes know as well, flags of the odometry alone.
+# Name, flags of the landscapes and the odometry (None: no landscapes), flags of the odometry.
 VARIANTS = [
     ("point_to_point", ["--metrics=point_to_point"], SCAN_TO_SCAN),
     ("point_to_plane", ["--metrics=point_to_plane"], SCAN_TO_SCAN),
@@ -30,7 +29,7 @@ VARIANTS = [
     ("planar_to_plane (LOAM's)", ["--metrics=planar_to_plane"], SCAN_TO_SCAN),
     ("edge_to_line + planar_to_plane", ["--metrics=edge_to_line,planar_to_plane"], SCAN_TO_SCAN),
     ("point_to_point, reciprocal", ["--metrics=point_to_point", "--reciprocal"], SCAN_TO_SCAN),
-    ("point_to_point, ego filter 5 m",
+    ("point_to_point, ego blind spot filter 5 m",
      ["--metrics=point_to_point", "--artificial_blind_spot_m=5", "--ego_filter_m=5"], SCAN_TO_SCAN),
     ("point_to_point, octree filter", ["--metrics=point_to_point", "--octree_voxel_m=0.1"],
      SCAN_TO_SCAN),
@@ -57,8 +56,8 @@ def read_results(folder):
 
 
 def predicted_drift(program, drive, flags, frames, out):
-    """Sum of (u* - 1) |motion| over sum of |motion|, for pairs of scans; none for joint metrics, and
-    where a loss bends the cost."""
+    """Sum of (u* - 1) |motion| over sum of |motion|, for pairs of scans; None for several metrics, and
+    with a loss."""
     metrics = flags[0].split("=")[1]
     if not frames or "," in metrics or any(flag.startswith("--loss") for flag in flags):
         return None
@@ -103,7 +102,7 @@ def main():
             steps = [int(r["iterations"]) for r in csv.DictReader(file)]
         drift = shared and predicted_drift(flags.bin / "icpscape-landscape", drive, shared, frames,
                                            flags.out / "runs" / "landscape")
-        # A drive of less than 100 m has neither t_err nor r_err.
+        # A drive of less than 100 m has no t_err and r_err.
         rows.append((results.get("t_err_percent", math.nan), name,
                      results.get("r_err_deg_per_100m", math.nan), ate,
                      results["not_registered"], statistics.mean(steps[1:]),

@@ -2,8 +2,8 @@
 # SPDX-License-Identifier: BSD-3-Clause
 # traffic_references.sh SCANS_DIR FRAME OUT: curves of a pair of raw KITTI scans (FRAME to the one
 # before) that have no ground truth, against two estimates of their motion: scan to scan, and scan to
-# a submap of the five scans before. Where traffic moves alongside the two differ, and neither is the
-# truth: no claim about u* can be made.
+# a submap of the five scans before. In traffic the two differ and neither is the truth, so that no
+# claim about u* can be made.
 set -euo pipefail
 [ $# -eq 3 ] || { echo "traffic_references.sh: expected SCANS_DIR FRAME OUT" >&2; exit 1; }
 scans=$1 frame=$((10#$2)) out=$3

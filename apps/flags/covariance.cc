@@ -9,10 +9,10 @@
 static const icpscape::FlagGroup group(__FILE__, "Covariance estimators");
 
 DEFINE_double(assumed_range_noise_m, icpscape::CovarianceOptions().range_noise_m,
-              "Standard deviation of independent range noise that Censi's formula is told (m).");
+              "Standard deviation of independent range noise that censi assumes (m).");
 DEFINE_double(
     assumed_ring_bias_m, icpscape::CovarianceOptions().ring_bias_m,
-    "Standard deviation of the lasers' constant errors that censi_ring_bias is told (m).");
+    "Standard deviation of the lasers' constant errors that censi_ring_bias assumes (m).");
 DEFINE_double(cluster_m, icpscape::CovarianceOptions().cluster_m,
               "Edge of the cubes whose pairs count as correlated in the clustered sandwich (m).");
 DEFINE_double(rematching_step_m, icpscape::CovarianceOptions().rematching_step_m,
@@ -24,7 +24,7 @@ DEFINE_double(length_scale_m, 10,
 namespace icpscape {
 
 CovarianceOptions CovarianceFromFlags() {
-  // Their options have other names.
+  // Checked here, since the flags have other names than the options.
   RequireFlag(FLAGS_assumed_range_noise_m >= 0 && FLAGS_assumed_range_noise_m <= 10,
               "assumed_range_noise_m", Number(FLAGS_assumed_range_noise_m), "0 to 10 m");
   RequireFlag(FLAGS_assumed_ring_bias_m >= 0 && FLAGS_assumed_ring_bias_m <= 10,

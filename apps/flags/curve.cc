@@ -11,14 +11,14 @@
 
 static const icpscape::FlagGroup group(__FILE__, "Curve along the path");
 
-DEFINE_double(u_min, -1, "Start of the path; u = 0 is --initial, u = 1 the reference pose.");
+DEFINE_double(u_min, -1, "First u: 0 is the start (--initial), 1 the reference (--reference).");
 static const icpscape::FlagMark u_min_mark(&FLAGS_u_min, icpscape::kShown);
-DEFINE_double(u_max, 2, "End of the path.");
+DEFINE_double(u_max, 2, "Last u.");
 static const icpscape::FlagMark u_max_mark(&FLAGS_u_max, icpscape::kShown);
 DEFINE_int32(samples, 100, "Poses along the path, both ends included.");
 static const icpscape::FlagMark samples_mark(&FLAGS_samples, icpscape::kShown);
 DEFINE_string(path, "lerp_slerp",
-              "Poses between the two: lerp_slerp (the paper's, sec. 3.1), geodesic (constant twist "
+              "Path from start to reference: lerp_slerp (paper sec. 3.1), geodesic (constant twist "
               "in SE(3)) or bicycle (constant speed and steering).");
 DEFINE_string(
     column, "rmse",
@@ -27,13 +27,13 @@ DEFINE_string(
     "u = 1), epsilon, cost or inlier_ratio.");
 static const icpscape::FlagMark column_mark(&FLAGS_column, icpscape::kShown);
 DEFINE_string(patch_offset, "per_term",
-              "Ones subtracted from planar_to_patch: per_term, total (one in all) or none (paper "
+              "Ones subtracted from planar_to_patch's sum: per_term, total (one) or none (paper "
               "sec. 4.2 allows the first two).");
 DEFINE_string(
     association, "reassociate",
-    "Pairs: reassociate (those of each pose, as in ICP) or frozen (those of --frozen_u).");
+    "Pairs: reassociate (matched at every pose, as in ICP) or frozen (those of --frozen_u).");
 static const icpscape::FlagMark association_mark(&FLAGS_association, icpscape::kShown);
-DEFINE_double(frozen_u, 1, "With --association=frozen: u of the pose whose pairs are taken.");
+DEFINE_double(frozen_u, 1, "With --association=frozen: u of the pose at which pairs are matched.");
 static const icpscape::FlagMark frozen_u_mark(&FLAGS_frozen_u, icpscape::kShown);
 
 namespace icpscape {

@@ -7,10 +7,10 @@
 
 namespace icpscape {
 
-/// Refuses what can be seen to be wrong before any file is read. Throws UsageError.
+/// Refuses flags that are wrong before any file is read. Throws UsageError.
 void CheckDriveFlags();
 
-/// The sequence of the flags, of it --frames, turned around under --reverse. Prints what there is
+/// The --frames of the sequence of the flags, turned around under --reverse. Prints what there is
 /// and records the small inputs. Throws InputError.
 ScanSequence DriveFromFlags(Manifest* manifest);
 

@@ -8,7 +8,7 @@
 
 static const icpscape::FlagGroup group(__FILE__, "Input: part of a drive");
 
-DEFINE_string(frames, "", "First and last frame of the drive, as in 0:99; none is all of it.");
+DEFINE_string(frames, "", "First and last frame of the drive, as in 0:99; empty: the whole drive.");
 
 namespace icpscape {
 

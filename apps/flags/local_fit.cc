@@ -15,8 +15,8 @@ DEFINE_double(fit_eigenvalue_ratio, 3,
 DEFINE_double(fit_max_smallest_eigenvalue_m2, 1e-4,
               "A patch's smallest eigenvalue is below this (paper sec. 4.2, without unit; m^2).");
 DEFINE_string(fit_eigenvalue_scale, "over_n",
-              "Sum of squares about the mean: scatter (as it is), over_n or over_n_minus_one; the "
-              "paper does not say.");
+              "Divisor of the sums of squares about the mean: scatter (none), over_n or "
+              "over_n_minus_one; the paper does not say.");
 DEFINE_string(fit_anchor, "centroid",
               "A point of the line or patch: centroid (LOAM's mapping, A-LOAM) or nearest.");
 DEFINE_double(fit_max_neighbor_distance_m, 0,

@@ -16,13 +16,11 @@ DECLARE_string(scene);
 
 static const icpscape::FlagGroup group(__FILE__, "Monte-Carlo draws");
 
-DEFINE_int32(
-    draws, 100,
-    "With --scene: how often scans and start are drawn anew; 0 reports on one pair alone.");
-DEFINE_string(
-    sensor, "redrawn",
-    "The lasers' constant errors: redrawn in every draw (a lidar that one does not know), "
-    "or fixed (always the lidar of --seed: its errors are bias).");
+DEFINE_int32(draws, 100,
+             "With --scene: number of draws of scans and start; 0: only the report on the pair.");
+DEFINE_string(sensor, "redrawn",
+              "The lasers' constant errors: redrawn in every draw (the lidar is unknown), "
+              "or fixed (always the lidar of --seed: its errors are bias).");
 
 namespace icpscape {
 namespace {
@@ -38,7 +36,7 @@ int DrawsFromFlags() {
               std::to_string(FLAGS_draws), "0, or 2 to 100000");
   if (FLAGS_draws > 0) {
     RequireUnchanged([](const Flag& flag) { return flag.Has(kNotOfDraws); },
-                     "--draws=0 with it, since draws are of simulated pairs as they are");
+                     "--draws=0 with it, since draws do not apply it");
   }
   return FLAGS_draws;
 }

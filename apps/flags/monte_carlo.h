@@ -7,8 +7,8 @@
 namespace icpscape {
 
 /// The Monte-Carlo experiment of --scene, --draws and --sensor, with the options of all that a draw
-/// goes through. `draws` is 0 where there is no --scene, or none are asked for. Throws UsageError,
-/// also for flags that draws do not know.
+/// goes through. `draws` is 0 without --scene. Throws UsageError, also for flags that draws do not
+/// apply.
 MonteCarloOptions MonteCarloFromFlags();
 
 }  // namespace icpscape

@@ -17,8 +17,8 @@ DEFINE_string(metrics, "point_to_point,point_to_plane,symmetric",
 static const icpscape::FlagMark metrics_mark(&FLAGS_metrics, icpscape::kShown);
 DEFINE_string(loss, "none",
               "Loss on each residual: none, huber, soft_l_one, cauchy, arctan, tukey, tolerant. "
-              "planar_to_patch keeps its own, SoftLOneLoss(1), under none. It bends the cost; the "
-              "paper's RMSE knows no loss.");
+              "With none planar_to_patch keeps its own, SoftLOneLoss(1). A loss changes the "
+              "cost, but not the paper's RMSE.");
 static const icpscape::FlagMark loss_mark(&FLAGS_loss, icpscape::kCostOnly);
 DEFINE_double(loss_scale_m, 0.1, "Length at which the loss bends (m).");
 static const icpscape::FlagMark loss_scale_mark(&FLAGS_loss_scale_m, icpscape::kCostOnly);

@@ -22,20 +22,20 @@ DECLARE_string(reassociation);
 DEFINE_string(mode, "scan_to_map",
               "What a scan is registered to: scan_to_scan (the one before, the paper's), "
               "scan_to_map, or two_stage (LOAM: the one before, and every few scans the map). "
-              "scan_to_map comes with --voxel_m=0.25 (but for metrics of edge and planar points), "
-              "--adaptive_gate_m=2 and --loss=huber where they are not given.");
+              "scan_to_map sets --voxel_m=0.25 (not for metrics of edge and planar points), "
+              "--adaptive_gate_m=2 and --loss=huber unless they are given.");
 DEFINE_double(map_voxel_m, 0.5, "The map keeps one point per voxel of this size (m).");
-DEFINE_double(map_radius_m, 80, "The map forgets what is farther away than this (m).");
+DEFINE_double(map_radius_m, 80, "The map drops points farther away than this (m).");
 DEFINE_int32(map_scans, 0,
-             "The map forgets scans older than so many; 0 is no limit, 1 the paper's map.");
-DEFINE_int32(map_every, 10, "With two_stage: a mapping step every so many scans.");
+             "The map keeps points of this many last scans; 0 is no limit, 1 the paper's map.");
+DEFINE_int32(map_every, 10, "With two_stage: number of scans from one mapping step to the next.");
 DEFINE_string(prediction, "constant_velocity",
-              "Where registration starts, and T_e of the filters: constant_velocity (the motion "
-              "before) or none.");
-DEFINE_double(adaptive_gate_m, 0,
-              "If positive: how far the first prediction is taken to be off (m); the longest "
-              "distance of a pair is then three times the predictions' RMS error so far "
-              "(KISS-ICP), instead of --max_distance_m.");
+              "Predicted pose, for the start and the filters: constant_velocity (the motion of the "
+              "scan before) or none (the identity).");
+DEFINE_double(
+    adaptive_gate_m, 0,
+    "If positive: the gate is three times the RMS error of the predicted poses so far "
+    "(KISS-ICP), instead of --max_distance_m; this is the assumed error of the first (m).");
 
 namespace icpscape {
 

@@ -19,9 +19,9 @@
 static const icpscape::FlagGroup group(__FILE__, "Input: the pair of scans");
 
 DEFINE_int32(frame, -1,
-             "Frame to register: the source. A scene of three scans has its last by default.");
+             "Frame number of the source. In a scene of three scans the last is the default.");
 static const icpscape::FlagMark frame_mark(&FLAGS_frame, icpscape::kShown);
-DEFINE_int32(target_frame, -1, "Frame to register to; -1 is the one before --frame.");
+DEFINE_int32(target_frame, -1, "Frame number of the target; -1 is the frame before --frame.");
 static const icpscape::FlagMark target_frame_mark(&FLAGS_target_frame, icpscape::kShown);
 DEFINE_string(source, "", "Source cloud (.bin, .pcd or .ply), instead of a sequence.");
 static const icpscape::FlagMark source_mark(&FLAGS_source, icpscape::kShown);
@@ -29,8 +29,8 @@ DEFINE_string(target, "", "Target cloud, with --source.");
 static const icpscape::FlagMark target_mark(&FLAGS_target, icpscape::kShown);
 DEFINE_string(
     initial, "identity",
-    "Pose at u = 0 and start of register: identity (paper), previous_motion, or the path of a "
-    "text file of the 4x4 T_target_source.");
+    "Start, the pose at u = 0: identity (paper), previous_motion (the predicted pose), or the "
+    "path of a text file of the 4x4 T_target_source.");
 
 namespace icpscape {
 namespace {
@@ -41,7 +41,7 @@ bool FromFiles() { return !FLAGS_source.empty() || !FLAGS_target.empty(); }
 int SourceFrame() { return FLAGS_frame < 0 ? 2 : FLAGS_frame; }
 int TargetFrame() { return FLAGS_target_frame < 0 ? SourceFrame() - 1 : FLAGS_target_frame; }
 
-// A ScanSequence's Pair reads through it: prints, records.
+// For ScanSequence::Pair: reads a scan, prints and records what was read.
 PointCloud Read(const std::string& role, const Scan& scan, Manifest* manifest) {
   DroppedPoints dropped;
   PointCloud cloud = scan.read(&dropped);
@@ -122,7 +122,7 @@ void CheckPairFlags(const std::vector<std::string>& metrics, bool needs_ground_t
   if (needs_ground_truth && !FlagsHaveGroundTruth()) {
     throw UsageError(
         "no ground truth: expected --ground_truth=FILE (with --source the 4x4 T_target_source as "
-        "text; icpscape-register writes one that can stand in).");
+        "text, as icpscape-register writes it).");
   }
   RequireFlag(FLAGS_initial == "identity" || FLAGS_initial == "previous_motion" ||
                   std::filesystem::is_regular_file(FLAGS_initial),
@@ -160,7 +160,7 @@ SE3d InitialPose(const ScanPair& pair, Manifest* manifest) {
   if (FLAGS_initial == "previous_motion") {
     if (!pair.T_predicted) {
       throw UsageError(
-          "--initial=previous_motion: expected an input that knows the motion before.");
+          "--initial=previous_motion: expected true poses, and a scan before each of the two.");
     }
     return *pair.T_predicted;
   }

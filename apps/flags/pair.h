@@ -12,16 +12,16 @@
 
 namespace icpscape {
 
-/// Refuses what can be seen to be wrong before any file is read, also where one of the metrics
-/// cannot be had of voxels, or a ground truth is needed and the input has none. Throws UsageError.
+/// Refuses flags that are wrong before any file is read, also where one of the metrics cannot use
+/// voxels, or a ground truth is needed and the input has none. Throws UsageError.
 void CheckPairFlags(const std::vector<std::string>& metrics, bool needs_ground_truth);
 
 /// The pair of --source --target, or two frames of the sequence of the flags; turned around under
 /// --reverse. Prints what was read and dropped, and records inputs and timings. Throws InputError.
 ScanPair ReadPair(Manifest* manifest);
 
-/// --initial: the pose at u = 0, where register starts. Throws UsageError where the pair does not
-/// know it, InputError where its file cannot be read.
+/// --initial: the pose at u = 0, where register starts. Throws UsageError where the predicted pose
+/// is unknown, InputError where its file cannot be read.
 SE3d InitialPose(const ScanPair& pair, Manifest* manifest);
 
 /// Prepares the pair, whose clouds it takes, for the metrics, the rejections of the flags and the

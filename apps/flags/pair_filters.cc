@@ -14,12 +14,12 @@
 #include "src/filtering/filter_statistics.h"
 #include "src/io/transform.h"
 
-static const icpscape::FlagGroup group(__FILE__, "Estimate of the motion for filters",
+static const icpscape::FlagGroup group(__FILE__, "Predicted pose of the filters",
                                        icpscape::kNotOfDraws);
 
 DEFINE_string(filter_estimate, "previous_motion",
-              "T_e of the filters: previous_motion (paper), identity, ground_truth, or the path of "
-              "a text file of the 4x4 T_target_source.");
+              "Predicted pose of the filters: previous_motion (paper), identity, ground_truth, or "
+              "the path of a text file of the 4x4 T_target_source.");
 
 namespace icpscape {
 namespace {
@@ -37,7 +37,8 @@ SE3d Estimate(const ScanPair& pair, Manifest* manifest) {
   if (FLAGS_filter_estimate == "previous_motion") {
     if (!pair.T_predicted) {
       throw UsageError(
-          "--filter_estimate=previous_motion: expected an input that knows the motion before.");
+          "--filter_estimate=previous_motion: expected true poses, and a scan before each of the "
+          "two.");
     }
     return *pair.T_predicted;
   }
@@ -61,9 +62,9 @@ PreparedPair FilterFromFlags(const PreparedPair& scans, const ScanPair& pair, Ma
   if (!options.Any()) {
     return scans;
   }
-  const SE3d T_e = options.NeedEstimate() ? Estimate(pair, manifest) : SE3d();
+  const SE3d T_predicted = options.NeedEstimate() ? Estimate(pair, manifest) : SE3d();
   const KeptPoints kept =
-      ApplyFilters(scans.source.cloud(), scans.target.cloud(), T_e, options,
+      ApplyFilters(scans.source.cloud(), scans.target.cloud(), T_predicted, options,
                    [&](const std::string& name, const KeptPoints& kept_here) {
                      const double source = CountKept(kept_here.source).Fraction();
                      const double target = CountKept(kept_here.target).Fraction();

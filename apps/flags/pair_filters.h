@@ -7,13 +7,13 @@
 
 namespace icpscape {
 
-/// Refuses what can be seen to be wrong before any file is read. Throws UsageError.
+/// Refuses flags that are wrong before any file is read. Throws UsageError.
 void CheckFilterFlags();
 
 /// The scans after the data filters of the flags, once, before anything else [the first stage
-/// of the paper's chain], with T_e of --filter_estimate. Normals and features were computed before
-/// and stay with their points. Prints and records what is kept. Throws ComputationError where
-/// nothing is.
+/// of the paper's chain], with the predicted pose of --filter_estimate. Normals and features were
+/// computed before and stay with their points. Prints and records what is kept. Throws
+/// ComputationError where nothing is.
 PreparedPair FilterFromFlags(const PreparedPair& scans, const ScanPair& pair, Manifest* manifest);
 
 }  // namespace icpscape

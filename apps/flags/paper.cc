@@ -21,14 +21,13 @@ static const icpscape::FlagMark figure_mark(&FLAGS_figure, icpscape::kShown);
 DEFINE_string(
     kitti_root, "",
     "Folder of the KITTI odometry data (with sequences/ and poses/): draws the paper's own "
-    "frames. Without it: simulated scenes that are driven with the motion of these frames, "
-    "by --seed.");
+    "frames. Without it: simulated scenes of --seed, with the motion of these frames.");
 static const icpscape::FlagMark kitti_root_mark(&FLAGS_kitti_root, icpscape::kAside);
 DEFINE_int32(straight_frame, 1500,
-             "KITTI 00 scan of figure 00_1500; 15 stands in where the paper's is not at hand.");
+             "KITTI 00 scan of figure 00_1500; 15 is a substitute where the paper's is missing.");
 static const icpscape::FlagMark straight_frame_mark(&FLAGS_straight_frame, icpscape::kShown);
 DEFINE_int32(turn_frame, 100,
-             "KITTI 00 scan of figure 00_100; 95 stands in where the paper's is not at hand.");
+             "KITTI 00 scan of figure 00_100; 95 is a substitute where the paper's is missing.");
 static const icpscape::FlagMark turn_frame_mark(&FLAGS_turn_frame, icpscape::kShown);
 DEFINE_int32(samples, 100, "Poses along the path, u from -1 to 2, both ends included.");
 static const icpscape::FlagMark samples_mark(&FLAGS_samples, icpscape::kShown);

@@ -11,7 +11,7 @@
 
 namespace icpscape {
 
-/// The figures of --figure. With --kitti_root those alone whose scans are on disk: the others are
+/// The figures of --figure. With --kitti_root only those whose scans are on disk; the others are
 /// named. Throws UsageError, and InputError where none is left.
 std::vector<Figure> FiguresFromFlags();
 

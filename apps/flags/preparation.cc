@@ -13,16 +13,16 @@
 static const icpscape::FlagGroup group(__FILE__, "Preparation of a scan");
 
 DEFINE_double(elevation_correction_deg, 0,
-              "Turn KITTI's points up by this angle (degrees); 0.205 is in use for the HDL-64.");
+              "Turns all points up by this angle (degrees); 0.205 is in use for KITTI's HDL-64.");
 static const icpscape::FlagMark elevation_correction_deg_mark(&FLAGS_elevation_correction_deg,
                                                               icpscape::kNotOfDraws);
-DEFINE_double(
-    voxel_m, 0,
-    "If positive: take the centroids of the points in voxels of this size (m) as the scans, "
-    "before normals and filters; not with metrics of edge and planar points.");
+DEFINE_double(voxel_m, 0,
+              "If positive: thins each scan to the centroids of voxels of this size (m), before "
+              "normals and filters; not with metrics of edge and planar points.");
 static const icpscape::FlagMark voxel_m_mark(&FLAGS_voxel_m, icpscape::kNotOfDraws);
 DEFINE_int32(normal_neighbors, 20, "Neighbours of a normal, the point itself included.");
-DEFINE_double(normal_radius_m, 0, "If positive: all points within this radius instead (m).");
+DEFINE_double(normal_radius_m, 0,
+              "If positive: the neighbours are all points within this radius (m).");
 
 namespace icpscape {
 

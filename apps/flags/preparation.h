@@ -11,7 +11,7 @@ namespace icpscape {
 
 /// What is done to every scan, for these metrics: --elevation_correction_deg, --voxel_m,
 /// --normal_neighbors, --normal_radius_m and the flags of features. Throws UsageError, also where
-/// one of the metrics cannot be had of voxels.
+/// one of the metrics cannot use voxels.
 PreparationOptions PreparationFromFlags(const std::vector<std::string>& metrics);
 
 }  // namespace icpscape

@@ -15,8 +15,8 @@
 static const icpscape::FlagGroup group(__FILE__, "Input: scans");
 
 DEFINE_string(scene, "",
-              "Simulated scans of --seed, without any data: three of straight_street, right_turn, "
-              "highway or highway_overtaking, or a drive of 228 m through a town.");
+              "Simulated scans of --seed: straight_street, right_turn, highway or "
+              "highway_overtaking (three scans), or town (a drive of 228 m).");
 static const icpscape::FlagMark scene_mark(&FLAGS_scene, icpscape::kShown);
 DEFINE_string(kitti_root, "", "Or: folder of the KITTI odometry data (sequences/ and poses/).");
 static const icpscape::FlagMark kitti_root_mark(&FLAGS_kitti_root, icpscape::kAside);
@@ -27,13 +27,11 @@ DEFINE_string(scans, "",
               "velodyne_points/).");
 static const icpscape::FlagMark scans_mark(&FLAGS_scans, icpscape::kAside);
 DEFINE_string(ground_truth, "",
-              "The truth about your own scans: of --scans the trajectory of the lidar, in KITTI's "
-              "or TUM's format, a pose for each scan of the folder; of two files the 4x4 "
+              "Ground truth of your own scans. With --scans: the trajectory of the lidar, in "
+              "KITTI's or TUM's format, with a pose for each scan. With two files: the 4x4 "
               "T_target_source as text.");
 static const icpscape::FlagMark ground_truth_mark(&FLAGS_ground_truth, icpscape::kAside);
-DEFINE_bool(reverse, false,
-            "The other way round: source and target swap, or the last scan of a drive comes "
-            "first.");
+DEFINE_bool(reverse, false, "Swaps source and target; of a drive, the last scan comes first.");
 
 static const icpscape::FlagMark reverse_mark(&FLAGS_reverse,
                                              icpscape::kShown | icpscape::kNotOfDraws);

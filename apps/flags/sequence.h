@@ -14,8 +14,8 @@ bool SequenceIsGiven();
 bool SceneIsGiven();
 bool SceneOfThreeScans();
 
-/// Refuses what can be seen to be wrong before any file is read: it must be one of --scene,
-/// --kitti_root and --scans. Throws UsageError.
+/// Refuses flags that are wrong before any file is read: it must be one of --scene, --kitti_root
+/// and --scans. Throws UsageError.
 void CheckSequenceFlags();
 
 /// The sequence with all its frames, and the truth of --ground_truth for --scans. Records the small

@@ -10,9 +10,9 @@
 static const icpscape::FlagGroup group(__FILE__, "Scene or drive");
 
 DEFINE_string(scene, "",
-              "Scene to scan three times, with the paper's motion: straight_street, right_turn, "
-              "highway, highway_overtaking, or all. Scan 2 is the source, scan 1 the target. Or "
-              "town: a drive of 228 m.");
+              "Scene of three scans, with the motion of the paper's frames: straight_street, "
+              "right_turn, highway, highway_overtaking, or all. Scan 2 is the source, scan 1 the "
+              "target. Or town: a drive of 228 m.");
 DEFINE_string(kitti_root, "", "Or: folder of the KITTI poses and calibration, for a long drive.");
 static const icpscape::FlagMark kitti_root_mark(&FLAGS_kitti_root, icpscape::kAside);
 DEFINE_string(sequence, "07", "KITTI sequence to drive along, with --kitti_root.");

@@ -29,8 +29,8 @@ DEFINE_string(frames, "",
               "Frames of the truth that were estimated, as in 0:99. Without it: all, or, where "
               "the estimates have timestamps, those of the same times.");
 DEFINE_string(calib, "",
-              "calib.txt, one for all or one for each --estimate, where the estimates are poses of "
-              "the lidar and the truth those of the camera: it makes poses of the camera of both.");
+              "calib.txt, one for all or one for each --estimate: needed where the estimates are "
+              "poses of the lidar and the truth has poses of the camera.");
 DEFINE_double(max_time_difference_s, 0.01,
               "Where both have timestamps, poses are paired whose times differ by at most this "
               "(s).");

@@ -10,7 +10,7 @@
 
 namespace icpscape {
 
-/// Which trajectory is held against which truth.
+/// Which trajectory is compared with which truth.
 struct TrajectoryFiles {
   std::string name;  ///< What tables call it.
   std::filesystem::path estimate, truth;

@@ -200,8 +200,8 @@ void CovarianceReport::AddDraws(const std::string& metric, const std::vector<Dra
   std::printf(":        rx (mdeg)       ry       rz  tx (mm)       ty       tz\n");
   if (calibration.unconverged > 0) {
     std::printf(
-        "warning: %ld of them ended at the limit of iterations and not where the gradient "
-        "vanishes: neither bias nor NEES are those of a minimum\n",
+        "warning: %ld of them ended at the limit of iterations, before the gradient vanished: "
+        "bias and NEES are not those of a minimum\n",
         calibration.unconverged);
   }
   manifest->SetResult("unconverged_" + metric, static_cast<double>(calibration.unconverged));
@@ -246,8 +246,8 @@ void CovarianceReport::AddDraws(const std::string& metric, const std::vector<Dra
     manifest->SetResult("nees_about_truth_" + metric + "_" + name, truth.mean);
   }
   std::printf(
-      "  (over the draws that have that covariance; bounds: where it is right, 95 %% of the means\n"
-      "  about the mean)\n");
+      "  (over the draws that have that covariance; bounds: 95 %% of the NEES about the mean lie\n"
+      "  between them if the covariance is right)\n");
 }
 
 void CovarianceReport::WritePair(Run* run) const {

@@ -33,7 +33,7 @@ void ReportRemoval(const PointCloud& source, const PointCloud& target, const SE3
   // Two points in one voxel are at most its diagonal apart.
   const DynamicRemains remains = FindDynamicRemains(source, target, kept.source, T_estimate,
                                                     std::sqrt(3.0) * voxel_m, is_moving);
-  std::printf("T_e = predicted pose: keeps %.1f %% of the source\n",
+  std::printf("with the predicted pose the filter keeps %.1f %% of the source\n",
               100 * CountKept(kept.source).Fraction());
   std::printf("moving points: %zu; removed: %zu; recall %.3f, precision %.3f\n", score.dynamic,
               score.dynamic_removed, score.Recall(), score.Precision());

@@ -11,7 +11,7 @@
 
 namespace icpscape {
 
-/// The least points of every metric along one axis of errors of T_e.
+/// The minima of every metric along one axis of errors of the predicted pose.
 struct FilterSweep {
   ErrorAxis axis;
   std::vector<std::string> metrics;
@@ -23,7 +23,7 @@ struct FilterSweep {
 /// Prints and records how the minima follow the errors, metric by metric.
 void ReportSweep(const FilterSweep& sweep, Manifest* manifest);
 
-/// Prints and records what the Octree Correspondence Filter with T_e removes of the moving points.
+/// Prints and records what the Octree Correspondence Filter removes of the moving points.
 void ReportRemoval(const PointCloud& source, const PointCloud& target, const SE3d& T_estimate,
                    double voxel_m, Manifest* manifest);
 

@@ -23,7 +23,7 @@ std::optional<GroundTruthCheck> ReportGroundTruthCheck(const ScanPair& pair,
         CheckGroundTruth(*scans.source.clouds().points, *scans.target.clouds().points,
                          *pair.T_ground_truth, threads);
     const double degrees = check.rotation_rad * 180 / M_PI;
-    std::printf("ground-truth check: point-to-plane settles %.4f m, %.4f deg from it\n",
+    std::printf("ground-truth check: point-to-plane ends %.4f m, %.4f deg from it\n",
                 check.translation_m, degrees);
     manifest->SetResult("ground_truth_check_m", check.translation_m);
     manifest->SetResult("ground_truth_check_deg", degrees);
@@ -33,7 +33,7 @@ std::optional<GroundTruthCheck> ReportGroundTruthCheck(const ScanPair& pair,
     if (needed) {
       throw;
     }
-    std::cout << "ground-truth check: without an answer (" << error.what() << ")\n";
+    std::cout << "ground-truth check: no answer (" << error.what() << ")\n";
     return std::nullopt;
   }
 }

@@ -11,9 +11,9 @@
 
 namespace icpscape {
 
-/// Checks the pair's ground truth, prints how far point-to-plane moves from it and records that. A
-/// truth that is exact stays what it is: there an offset is the metric's. Where the check has no
-/// answer: throws ComputationError if it is `needed`, else says so and returns nothing.
+/// Checks the pair's ground truth, prints how far point-to-plane moves from it and records that. An
+/// exact truth is not refined. Where the check has no answer: throws ComputationError if it is
+/// `needed`, else prints that and returns nothing.
 std::optional<GroundTruthCheck> ReportGroundTruthCheck(const ScanPair& pair,
                                                        const PreparedPair& scans, bool needed,
                                                        int threads, Manifest* manifest);

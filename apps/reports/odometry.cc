@@ -19,7 +19,7 @@ constexpr double kDegrees = 180 / M_PI;
 void WriteFrames(const ScanSequence& sequence, const std::vector<FrameRecord>& records, Run* run) {
   Table frames({"frame", "scan", "time_s", "registered", "termination", "iterations", "n", "rmse",
                 "gate_m", "points", "map_points", "motion_m", "motion_deg", "x_m", "y_m", "z_m"});
-  // Apart, since no two runs take the same time.
+  // In a table of its own, since no two runs take the same time.
   Table timings({"frame", "read_s", "odometry_s"});
   for (std::size_t i = 0; i < records.size(); ++i) {
     const FrameResult& r = records[i].result;
@@ -41,7 +41,7 @@ void ReportFailures(const std::vector<FrameRecord>& records, Manifest* manifest)
       std::count_if(records.begin() + 1, records.end(),
                     [](const FrameRecord& record) { return !record.result.registered; });
   if (failures > 0) {
-    std::cout << failures << " scans could not be registered: the prediction stands in\n";
+    std::cout << failures << " scans could not be registered and keep the predicted pose\n";
   }
   const auto unfinished =
       std::count_if(records.begin() + 1, records.end(), [](const FrameRecord& record) {

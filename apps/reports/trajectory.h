@@ -19,13 +19,13 @@ struct NamedTrajectory {
 
 /// Prints and records all errors of trajectories with truth, and writes them: errors.csv, one row a
 /// segment of KITTI's protocol; summary.csv, their means by sequence, length and speed;
-/// pose_errors.csv, ATE by alignment and RPE over `rpe_frames`. What a trajectory is too short for
-/// is said in one sentence. Throws UsageError where one has no successor `rpe_frames` on.
+/// pose_errors.csv, ATE by alignment and RPE over `rpe_frames`. Prints a sentence for errors that
+/// need a longer trajectory. Throws UsageError for one of at most `rpe_frames` poses.
 void ReportTrajectoryErrors(const std::vector<NamedTrajectory>& trajectories, int rpe_frames,
                             Run* run);
 
 /// Writes trajectory.csv and draws it as trajectory.svg and .png: positions, aligned by the first
-/// pose, and the distance from the truth over the path; without truth the positions alone (nan in
+/// pose, and the distance from the truth over the path; without truth only the positions (nan in
 /// the columns of the truth).
 void DrawTrajectories(const std::vector<NamedTrajectory>& trajectories, const std::string& title,
                       Run* run);

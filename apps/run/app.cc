@@ -58,7 +58,7 @@ int RunApp(int argc, char** argv, const std::string& summary, const std::functio
   google::InitGoogleLogging(argv[0]);
   FLAGS_logtostderr = true;
   FLAGS_log_prefix = false;
-  // icpscape-landscape writes into out/landscape unless told otherwise.
+  // By default icpscape-landscape writes into out/landscape.
   SetFlagDefault("out", "out/" + AppName().substr(AppName().find('-') + 1));
   for (int i = 1; i < argc; ++i) {
     if (AsksForHelp(argv[i])) {
@@ -76,7 +76,7 @@ int RunApp(int argc, char** argv, const std::string& summary, const std::functio
   }
   EndOnSignals();
   try {
-    ActiveSimdLevel();  // An unknown level is refused before there is work.
+    ActiveSimdLevel();  // Refuses an unknown level before any work.
     run();
     return 0;
   } catch (const UsageError& error) {

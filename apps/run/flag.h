@@ -29,7 +29,7 @@ struct FlagGroup {
   FlagGroup(const char* file, const char* title, unsigned properties = 0);
 };
 
-/// Gives properties to one flag. It stands beside the flag's definition:
+/// Gives properties to one flag. Put it beside the flag's definition:
 ///   static const icpscape::FlagMark seed_mark(&FLAGS_seed, icpscape::kShown);
 struct FlagMark {
   FlagMark(const void* flag, unsigned properties);

@@ -99,7 +99,7 @@ int WaitForChild(pid_t child) {
   }
   siginfo_t info;
   waitid(P_PID, static_cast<id_t>(child), &info, WEXITED | WNOWAIT);
-  // Under the lock: nobody is to end another process that gets the number of a child that is gone.
+  // Under the lock: End must not kill another process that gets the number of a child that ended.
   const std::lock_guard<std::mutex> lock(state.mutex);
   int status = -1;
   waitpid(child, &status, 0);

@@ -13,10 +13,10 @@ namespace icpscape {
 /// One run of a program: its folder, its manifest, and every file that it writes.
 ///
 /// What an earlier run of the same program left in the folder is removed just before this run
-/// writes its first file: by then all inputs are read, which may be among those files. What to
-/// remove is told by the earlier run's manifest.json or, where that run did not end, by
-/// .PROGRAM.written, which lists the files from before they are written until the manifest takes
-/// its place. Files of other programs and of the user stay.
+/// writes its first file: by then all inputs are read, which may be among those files. The earlier
+/// run's manifest.json lists these files or, where that run did not end, .PROGRAM.written, which
+/// lists files from before they are written until the manifest takes its place. Files of other
+/// programs and of the user stay.
 class Run {
  public:
   /// Creates --out, proves that it is writable, and takes away the manifest of an earlier run: a

@@ -82,11 +82,11 @@ class SE3Manifold final : public ceres::Manifold {
   }
 };
 
-/// SE(3) with steps in the free directions alone, as ceres::SubsetManifold is for vectors:
+/// SE(3) with steps only in the free directions, as ceres::SubsetManifold is for vectors, with
 /// Plus(x, d) = x Exp(S d), Minus(y, x) = S^T Log(x^-1 y), where the columns of S (6 x k) are the
 /// unit vectors of the mask. kPlanarDof is closed under composition: however many steps, the body
-/// stays in the x-y plane that it started in; other masks restrict each step alone. As with Ceres'
-/// own, Minus undoes Plus, and nothing else.
+/// stays in the x-y plane that it started in; other masks restrict each step only. As in Ceres' own
+/// manifold, Minus is the inverse only of Plus.
 class SE3SubsetManifold final : public ceres::Manifold {
  public:
   /// At least one direction must be free.

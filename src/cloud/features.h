@@ -10,10 +10,9 @@
 
 namespace icpscape {
 
-/// At most so many features from each of the equal parts, by number of points, of each ring: the
-/// largest s_i become edges, then the smallest become planar, equal ones in the order of the ring.
-/// None is taken within ring_points_per_side points of a feature already taken there [LOAM sec.
-/// V-A].
+/// Limits the number of features. Each ring is cut into regions with equally many points. In each
+/// region the largest s_i become edges, then the smallest become planar; ties go by the order of
+/// the ring. A point within ring_points_per_side points of a feature is skipped [LOAM sec. V-A].
 struct FeatureCaps {
   int regions_per_ring = 0;  ///< 0 switches the caps off, as in the paper.
   int edges_per_region = 0;
@@ -41,22 +40,21 @@ struct FeatureOptions {
 /// The thresholds of the convention that the formula belongs to; no caps.
 FeatureOptions ConventionalFeatureOptions(SmoothnessFormula formula);
 
-/// One entry per point of the cloud, for PointCloud::Select. No point is both.
+/// One entry per point of the cloud, for PointCloud::Select. No point is both edge and planar.
 struct Features {
   std::vector<char> edge;
   std::vector<char> planar;
   std::size_t num_edge = 0;
   std::size_t num_planar = 0;
 
-  /// Of the points i with keep[i] != 0, in order. One entry per point, unless there are none at
-  /// all.
+  /// The entries of the points i with keep[i] != 0, in order; empty where these are empty.
   Features Select(const std::vector<char>& keep) const;
 };
 
-/// Edge and planar points [paper sec. 2.4 and 4.2]. Points whose s_i is NaN are neither. Fewer than
-/// 500 points of a class are logged as a warning: caps apart, the threshold then hardly fits the
-/// neighbourhood (printed formula on KITTI 00/15: ring windows make 7.7 % of the points edges, ten
-/// nearest neighbours 24 points, a radius of 0.5 m 12).
+/// Edge and planar points [paper sec. 2.4 and 4.2]. A point whose s_i is NaN is neither edge nor
+/// planar. Logs a warning for a class of fewer than 500 points: without caps, the threshold then
+/// hardly fits the neighbourhood (printed formula on KITTI 00/15: 7.7 % of the points are edges
+/// with ring windows, 24 points with ten nearest neighbours, 12 points with a radius of 0.5 m).
 ///
 /// The result does not depend on `threads`. Throws UsageError for options out of range, InputError
 /// where rings are needed and the cloud has none (see RecoverRings).

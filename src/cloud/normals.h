@@ -30,7 +30,7 @@ std::vector<Eigen::Matrix3d> EstimateCovariances(const PointCloud& cloud,
 /// the number of points without a normal.
 std::size_t EstimateNormals(const NeighborhoodOptions& options, int threads, PointCloud* cloud);
 
-/// The same with a search over the cloud's points that is there already.
+/// The same, with a search over the cloud's points that was built before.
 std::size_t EstimateNormals(const NeighborSearch& search, const NeighborhoodOptions& options,
                             int threads, PointCloud* cloud);
 

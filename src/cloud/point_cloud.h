@@ -75,7 +75,7 @@ struct PointCloud {
 /// What a reader left out, and why.
 struct DroppedPoints {
   std::size_t non_finite = 0;  ///< A coordinate was NaN, infinite or beyond 1000 km.
-  std::size_t zero = 0;        ///< (0, 0, 0): how many sensors write "no return".
+  std::size_t zero = 0;        ///< (0, 0, 0), which many sensors write for "no return".
 };
 
 /// Drops the points that no registration can use. Normals and intensity follow.

@@ -17,7 +17,7 @@ struct ScanPair {
   PointCloud target;
   std::optional<SE3d> T_ground_truth;
   bool truth_is_exact = false;  ///< Simulated scans: the truth needs no check.
-  /// The pose predicted from the frame before, T_e in the paper: its motion, where it is known.
+  /// The predicted pose (T_e in the paper): the motion of the scan before, where it is known.
   std::optional<SE3d> T_predicted;
 
   /// Swaps source and target and inverts the poses.

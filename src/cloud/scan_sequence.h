@@ -31,9 +31,9 @@ struct FrameRange {
 /// From "FIRST:LAST", or all from "". Throws UsageError.
 FrameRange FrameRangeFromText(const std::string& text);
 
-/// Scans that were taken one after the other, and what is known about them: the one door to
-/// KITTI's sequences, raw drives, folders of files and simulated drives. Frame i is scans[i].
-/// A pair of scans is two frames of a sequence.
+/// Scans taken one after the other, with their times and true poses where these are known. KITTI's
+/// sequences, raw drives, folders of files and simulated drives all become one. Frame i is
+/// scans[i]; a pair of scans is two frames.
 struct ScanSequence {
   std::string title;            ///< For figures: "KITTI 07".
   std::filesystem::path place;  ///< For messages: where the scans lie.
@@ -58,14 +58,13 @@ struct ScanSequence {
   /// Turns the sequence around: the last scan comes first. The times stay as they are.
   void Reverse();
 
-  /// T_to_from of the lidar by the ground truth, where there is one. From the poses of the camera
-  /// where they are what is known: Tr^-1 P_to^-1 P_from Tr. Throws InputError where a frame has no
-  /// pose.
+  /// T_to_from of the lidar by the ground truth, where there is one. Where the files hold poses of
+  /// the camera: Tr^-1 P_to^-1 P_from Tr. Throws InputError where a frame has no pose.
   std::optional<SE3d> Motion(int to, int from) const;
 
   /// The scan `source`, to be registered to the scan `target`; with the ground truth and, where
-  /// both have a frame before, the pose predicted from the motion between those two. `read` reads
-  /// a scan by its role, "source" or "target". Throws InputError where there is no such frame.
+  /// both have a frame before, the predicted pose: the motion between these. `read` reads a scan by
+  /// its role, "source" or "target". Throws InputError where there is no such frame.
   ScanPair Pair(int source, int target,
                 const std::function<PointCloud(const char* role, const Scan&)>& read) const;
   /// The same, read silently.

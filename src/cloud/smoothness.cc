@@ -100,7 +100,7 @@ void AmongNeighbors(const PointCloud& cloud, const SmoothnessOptions& options, i
   const auto wanted = static_cast<std::size_t>(by_count ? options.num_neighbors : 1);
   const std::vector<std::int32_t>& order = search.Order();
   if (wanted >= order.size()) {
-    return;  // Nobody has so many others.
+    return;  // No point has so many others.
   }
   ForEachPart(order.size(), threads, [&](std::size_t begin, std::size_t end) {
     std::vector<Neighbor> nearest;

@@ -19,7 +19,7 @@ struct ErrorStatistics {
 /// Throws ComputationError for fewer than two errors.
 ErrorStatistics StatisticsOf(const std::vector<Vec6>& errors);
 
-/// What an average of normalised errors should be, and what it is.
+/// A mean of normalised errors, and the bounds in which it should be.
 struct Nees {
   double mean = 0;   ///< Ideally 6; above: over-confident.
   double lower = 0;  ///< Two-sided 95 % bounds of the mean for covariances that are right.
@@ -35,7 +35,7 @@ struct Nees {
 /// where the P_i are right and there is no bias. One P_i (positive definite, CHECKed) per error.
 Nees NeesAboutTruth(const std::vector<Vec6>& errors, const std::vector<Mat6>& covariances);
 
-/// The same about the errors' own mean m, which bias does not reach:
+/// The same about the errors' own mean m, so that a bias does not count:
 ///   NEES = 1/(N - 1) sum (xi_i - m)^T P_i^-1 (xi_i - m)
 /// The mean takes away 6 of the 6 N degrees of freedom: hence N - 1, and chi-square with 6 (N - 1).
 Nees NeesAboutMean(const std::vector<Vec6>& errors, const std::vector<Mat6>& covariances);

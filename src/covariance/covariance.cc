@@ -147,7 +147,7 @@ CovarianceSums SumForCovariance(const Objective& objective, const SE3d& T, const
 
 std::optional<Mat6> EstimateCovariance(Estimator estimator, const CovarianceSums& sums,
                                        const CovarianceOptions& options) {
-  // H decides always: what A or B have beyond it is no information about the pose.
+  // H must determine the pose: what A or B have beyond H is no information about it.
   const std::optional<Mat6> H_inverse = Inverse(sums.gauss_newton);
   if (!H_inverse) {
     return std::nullopt;

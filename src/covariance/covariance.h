@@ -61,7 +61,8 @@ CovarianceSums SumForCovariance(const Objective& objective, const SE3d& T_target
 ///   gauss_newton        s^2 H^-1, s^2 = 2 cost / (rows - 6): all residual rows are independent and
 ///                       equally noisy [linear regression].
 ///   censi               A^-1 B (sigma^2 I) B^T A^-1, B = d gradient / d ranges of both clouds
-///                       [Censi 2007, eq. 4]; ranges alone are noisy, normals are constants.
+///                       [Censi 2007, eq. 4]; only ranges are noisy. Leaves out that normals follow
+///                       the points: Censi's csm code differentiates through the line's normal.
 ///   censi_ring_bias     censi with a second source of noise: the lasers' constant range errors.
 ///   sandwich            A^-1 (sum g_i g_i^T) A^-1 [Huber 1967; White 1980, HC0]: pairs are
 ///                       independent, each with a noise of its own.
@@ -69,8 +70,9 @@ CovarianceSums SumForCovariance(const Objective& objective, const SE3d& T_target
 ///                       correlated in any way, those of two cubes are not.
 ///   sandwich_rematched  B^-1 (sum G_c G_c^T) B^-T: the same where the pairs follow the pose. ICP
 ///                       ends where the gradient g(T, z) over the pairs of T itself is zero; by the
-///                       implicit function theorem dT/dz = -B^-1 dg/dz with B = dg/dT, pairs and
-///                       all. Bonnabel et al. 2016 show what goes wrong without.
+///                       implicit function theorem dT/dz = -B^-1 dg/dz, where B = dg/dT includes
+///                       the change of pairs. Bonnabel et al. 2016 show what goes wrong if it does
+///                       not.
 enum class Estimator {
   kGaussNewton,
   kCensi,

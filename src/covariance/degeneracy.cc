@@ -21,7 +21,7 @@ constexpr double kPartialStrong = 35;  // kappa_3
 
 constexpr double kDcregCondition = 10;
 
-// A direction of rotation or translation alone.
+// A direction of only rotation or only translation.
 Vec6 Embed(const Vec3& direction, bool rotation) {
   Vec6 embedded = Vec6::Zero();
   embedded.segment<3>(rotation ? 0 : 3) = direction;

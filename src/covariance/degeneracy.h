@@ -52,9 +52,9 @@ std::vector<PlaneConstraint> PlaneConstraintsOf(const Objective& objective,
 
 // The verdicts of one rule: six, over the directions that the rule itself looks at.
 
-/// Zhang, Kaess & Singh 2016: an eigenvalue of H = J^T J below a threshold; H as it comes, in rad
-/// and m. The paper leaves the threshold to experiments. Those in use are constants on sums over
-/// all pairs, so that the number of points decides with them.
+/// Zhang, Kaess & Singh 2016: an eigenvalue of H = J^T J below a threshold; H is not scaled (rad,
+/// m). The paper leaves the threshold to experiments. Codes use constants on sums over all pairs,
+/// so that the verdict depends on the number of points.
 std::vector<Verdict> JudgeEigenvalues(const std::string& rule, const std::string& source,
                                       const Mat6& hessian, double threshold);
 /// Scan to scan: loam_velodyne and LeGO-LOAM.
@@ -76,8 +76,8 @@ std::vector<Verdict> JudgeXicp(const Mat6& hessian, const std::vector<PlaneConst
 /// DCReg [Hu et al. 2025, eq. 18 to 21]: eigenvalues lambda_j of the Schur complements
 ///   S_R = H_RR - H_Rt H_tt^-1 H_tR,  S_t = H_tt - H_tR H_RR^-1 H_Rt
 /// each within its own three: degenerate where lambda_max / lambda_j > 10 (`value`, and the
-/// default of the authors' code). Where a block is singular its pseudo-inverse stands for the
-/// inverse; the authors' code calls all six directions degenerate there.
+/// default of the authors' code). Where a block is singular its pseudo-inverse is used; the
+/// authors' code calls all six directions degenerate there.
 std::vector<Verdict> JudgeDcreg(const Mat6& hessian);
 
 /// All rules side by side; X-ICP's where there are pairs for it.

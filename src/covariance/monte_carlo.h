@@ -37,8 +37,8 @@ struct MonteCarloOptions {
   std::vector<std::string> metrics = {"point_to_plane"};
   PreparationOptions preparation;
   ObjectiveSetOptions objective;
-  /// One start per draw; count, seed and the minimizer's threads are not used. Converged is where
-  /// the stop rule leaves less than the errors that are measured: see PreciseMinimizer.
+  /// One start per draw; count, seed and the minimizer's threads are not used. The minimizer must
+  /// stop at steps far below the errors that are measured: see PreciseMinimizer.
   RandomStartOptions start;
   CovarianceOptions covariance;
   int draws = 100;
@@ -76,8 +76,8 @@ struct EstimatorCalibration {
 struct Calibration {
   ErrorStatistics errors;  ///< About the truth: their mean is the bias.
   long failed = 0;         ///< Draws without a usable result, which are left out.
-  /// Draws that ended at the limit of iterations. They count, though no theory that starts from a
-  /// vanishing gradient speaks of them.
+  /// Draws that ended at the limit of iterations. They count, although the estimators assume a
+  /// gradient of zero.
   long unconverged = 0;
   std::vector<EstimatorCalibration> estimators;
 };

@@ -21,8 +21,8 @@ KeptPoints ArtificialBlindSpots(const PointCloud& source, const PointCloud& targ
 /// no correspondence there. With t the translation of T_target_source and t' that of its inverse,
 ///   q is dropped where (q_x - t_x)^2 + (q_y - t_y)^2 <= r^2,
 ///   p is dropped where (p_x - t'_x)^2 + (p_y - t'_y)^2 <= r^2.
-/// The estimate is usually the motion of the frame before. Throws UsageError unless radius_m is a
-/// length above 0.
+/// The estimate is usually the predicted pose. Throws UsageError unless radius_m is a length above
+/// 0.
 KeptPoints EgoBlindSpotFilter(const PointCloud& source, const PointCloud& target,
                               const SE3d& T_target_source_estimate, double radius_m);
 

@@ -31,7 +31,7 @@ KeptPoints ApplyFilters(const PointCloud& source, const PointCloud& target, cons
     }
     for (const std::vector<char>* keep : {&kept.source, &kept.target}) {
       if (std::find(keep->begin(), keep->end(), 1) == keep->end()) {
-        throw ComputationError(name + ": no point is left; expected some to agree.");
+        throw ComputationError(name + ": no point is left; expected at least one.");
       }
     }
     Compose(kept.source, &all.source);

@@ -21,7 +21,7 @@ struct FilterOptions {
   bool NeedEstimate() const { return ego_blind_spot_m > 0 || octree_voxel_m > 0; }
 };
 
-/// Applies the filters, those that need an estimate of the motion with T_e. `report` (if any) is
+/// Applies the filters; those that compare the scans do so under the estimate. `report` (if any) is
 /// called after each with its name (artificial_blind_spot, ego_filter, octree_filter) and what it
 /// kept of what came to it. Throws ComputationError where one of them leaves no point.
 KeptPoints ApplyFilters(

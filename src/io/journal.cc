@@ -80,12 +80,12 @@ void Journal::Load(const std::string& header) {
                        line == Line(checksum_, line.substr(0, blank));
     if (!whole) {
       const bool is_last = end == std::string::npos || end + 1 == text.size();
-      // What is no beginning of our header is not ours to cut off.
+      // A first line that does not begin our header is of another file: it is not cut off.
       if (!is_last || (number == 1 && Line("", header).rfind(line, 0) != 0)) {
         throw InputError(path_.string() + ":" + std::to_string(number) +
                          ": damaged; expected an undamaged journal, or another folder.");
       }
-      break;  // What a run was writing when it ended.
+      break;  // The record that a run was writing when it ended.
     }
     checksum_ = line.substr(blank + 1);
     if (number == 1 && line.substr(0, blank) != header) {

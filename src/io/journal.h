@@ -22,7 +22,7 @@ class Journal {
     kAnew,         ///< Drops them, whatever they are.
   };
 
-  /// Opens or creates the file, for this process alone. Throws InputError where it cannot be
+  /// Opens or creates the file, for this process only. Throws InputError where it cannot be
   /// written or is in use; and, unless it begins anew, where it has another header (the message
   /// names the first part, separated by "; ", that differs), or is damaged before its end.
   Journal(std::filesystem::path path, const std::string& header, Begin begin = Begin::kWhereItEnds);

@@ -20,8 +20,8 @@ class Manifest {
   Manifest(const Manifest&) = delete;
   Manifest& operator=(const Manifest&) = delete;
 
-  /// `is_changed` flags, which set the results apart from those of the defaults, are listed apart
-  /// as well.
+  /// A flag that `is_changed` makes the results differ from those of the defaults; it is listed a
+  /// second time.
   void SetFlag(const std::string& name, const std::string& value, bool is_changed);
   /// Records path, size and SHA-256. Throws InputError where the file cannot be read.
   void AddInput(const std::filesystem::path& path);
@@ -29,7 +29,7 @@ class Manifest {
   void SetResult(const std::string& name, const std::string& value);
   /// Seconds since the last call (or the start), under that name.
   void AddTiming(const std::string& name);
-  /// "read 0.03 s, landscape 0.41 s": what AddTiming was told, in its order.
+  /// "read 0.03 s, landscape 0.41 s": the timings in the order of AddTiming.
   std::string TimingsText() const;
 
   /// The files beside the manifest that belong to the run.

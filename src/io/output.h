@@ -17,7 +17,7 @@ void WriteThenRename(const std::filesystem::path& path,
                      const std::function<bool(const std::filesystem::path&)>& write);
 
 /// While the lock is held nothing is being written by these functions, and no temporary file of
-/// theirs is there: what ends the process takes it first.
+/// theirs is there: code that ends the process takes it first.
 std::unique_lock<std::mutex> HoldOutputFiles();
 
 /// Writes the text as a whole file, as above.

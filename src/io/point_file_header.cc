@@ -12,7 +12,7 @@
 namespace icpscape {
 namespace {
 
-// A header longer than this is none.
+// No header is longer than this.
 constexpr std::streamoff kLongestHeader = 1 << 16;
 
 // The next line without its end; false at the end of the file or of what may be a header.
@@ -35,7 +35,7 @@ std::vector<std::string> Words(const std::string& line) {
   return words;
 }
 
-// A count between 1 and 1e10, or 0 where the word is none.
+// A count between 1 and 1e10, or 0 where the word is not one.
 std::uintmax_t Count(const std::string& word) {
   std::uintmax_t count = 0;
   for (const char c : word) {

@@ -6,10 +6,9 @@
 
 namespace icpscape {
 
-/// Whether the header is one that PCL's reader can be trusted with. As of 1.13 it runs off the end
-/// of files that are not what they claim, and reserves memory for any number of points that they
-/// promise: so keywords, sizes and counts are looked at first, and the promised points must fit the
-/// file.
+/// Whether PCL's reader can be trusted with the file. PCL 1.13 reads beyond the end of malformed
+/// files and reserves memory for any number of points in the header. So keywords, sizes and counts
+/// are checked first, and the points of the header must fit the file.
 bool PcdHeaderIsSound(const std::filesystem::path& path);
 bool PlyHeaderIsSound(const std::filesystem::path& path);
 

@@ -42,7 +42,7 @@ std::ifstream Open(const std::filesystem::path& path) {
   return in;
 }
 
-// Words of the first line that is neither blank nor a comment; nothing where there is none.
+// Words of the first line that is neither blank nor a comment; empty if there is no such line.
 std::vector<std::string> FirstRow(const std::filesystem::path& path) {
   std::ifstream in = Open(path);
   for (std::string line; std::getline(in, line);) {

@@ -24,8 +24,8 @@ struct Trajectory {
 /// has a coordinate beyond 1e9 m, and where there is no pose or no regular file.
 Trajectory ReadTrajectory(const std::filesystem::path& path);
 
-/// KITTI's format, all poses as they are. Translations read back exactly, rotations to rounding
-/// (they are normalised on reading). Throws InputError where the file cannot be written.
+/// KITTI's format, all poses unchanged. Translations read back exactly, rotations to rounding (they
+/// are normalised on reading). Throws InputError where the file cannot be written.
 void WriteKittiTrajectory(const std::filesystem::path& path, const std::vector<SE3d>& T_world_body);
 
 /// TUM's format, as above. The trajectory must have times (CHECKed).

@@ -27,7 +27,7 @@ struct CurvePoint {
   double slope_numeric = 0;   ///< d rmse / du of the plotted curve, by differences of its samples.
 };
 
-/// What a curve can be drawn over u as: the readings of the paper's RMSE(eps), and the raw sums.
+/// What can be drawn over u: the ways to read the paper's RMSE(eps), and the raw sums.
 struct CurveColumn {
   const char* name;
   double CurvePoint::*value;

@@ -34,8 +34,8 @@ struct Names<PathKind> {
 /// its yaw, l = kSensorAheadOfRearAxle_m and s the length of the axle's arc, the sensor moves with
 /// the constant body twist
 ///   b = [0, 0, psi; s, psi l, 0],   s = (D_x cos(psi/2) + D_y sin(psi/2)) (psi/2) / sin(psi/2),
-/// the axle's chord being along psi/2. What no such car can do (z, roll, pitch, side slip) is added
-/// behind it as a geodesic, so that T_1 is met exactly:
+/// the axle's chord being along psi/2. The rest of the motion, which no such car can do (z, roll,
+/// pitch, side slip), follows as a geodesic, so that T_1 is met exactly:
 ///   T_u = T_0 Exp(u b) Exp(u e),   e = Log(Exp(b)^-1 D).
 /// For the motion of such a car e = 0, and the path is the geodesic. The height of the sensor over
 /// the axle changes nothing.

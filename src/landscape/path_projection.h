@@ -6,8 +6,8 @@
 
 namespace icpscape {
 
-/// Where on a path a pose has its place in a plot, and how far from the path it lies. Iterates of
-/// ICP usually lie beside it.
+/// The place of a pose on a path, for plots, and its distance from the path: iterates of ICP
+/// usually lie beside the path.
 struct PathProjection {
   double u = 0;             ///< Of the nearest pose T_u.
   double off_path_m = 0;    ///< |t - t_u|.

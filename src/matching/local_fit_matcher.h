@@ -20,8 +20,8 @@ struct Names<EigenvalueScale> {
   static constexpr const char* kNames[] = {"scatter", "over_n", "over_n_minus_one"};
 };
 
-/// Which point stands for the line or patch: the neighbours' mean (LOAM's mapping stage, A-LOAM) or
-/// the nearest of them.
+/// The anchor of the line or patch: the neighbours' mean (LOAM's mapping stage, A-LOAM) or the
+/// nearest of them.
 enum class FitAnchor { kCentroid, kNearest };
 template <>
 struct Names<FitAnchor> {

@@ -26,7 +26,7 @@ void RejectDistant(const PointCloud& source, const PointCloud& target, const SE3
 
 /// Rejects pairs whose normals R n_p and n_q form more than max_angle_rad (0 to pi), and pairs
 /// without a normal at either end. The signs count: normals look at their sensor, so the two sides
-/// of a thin wall are told apart. Throws InputError where a cloud has no normals.
+/// of a thin wall do not match. Throws InputError where a cloud has no normals.
 void RejectByNormalAngle(const PointCloud& source, const PointCloud& target,
                          const SE3d& T_target_source, double max_angle_rad, Matches* matches);
 

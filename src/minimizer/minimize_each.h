@@ -9,7 +9,7 @@
 
 namespace icpscape {
 
-/// The closed loop of one metric alone.
+/// The closed loop of one metric.
 struct MetricIterates {
   std::string metric;
   MinimizerSummary summary;

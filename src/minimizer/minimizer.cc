@@ -83,9 +83,9 @@ StepResult Step(const JointObjective& objective, const Loop& loop, const Matches
   } else {
     bool first = true;
     problem.AddResidualBlock(new SquareRootCost([&, first](const SE3d& T) mutable {
-                               // Ceres begins with the pose that was evaluated a moment ago. Of
-                               // where it goes from there it needs the cost, to accept the step;
-                               // derivatives there are nobody's, because the pairs change next.
+                               // Ceres begins with the pose that was evaluated last. At the next
+                               // pose it needs only the cost, to accept the step: before it asks
+                               // for derivatives the pairs change.
                                return std::exchange(first, false) ? at_start.sums
                                                                   : loop.FrozenCost(T, matches);
                              }),

@@ -12,12 +12,12 @@
 
 namespace icpscape {
 
-/// When the matches follow the pose. Never only after accepted steps of one Solve: Ceres would then
-/// compare the costs of two different objectives.
+/// When the matches follow the pose. (Not after the accepted steps of one Solve: Ceres would then
+/// compare the costs of two different objectives.)
 enum class Reassociation {
   /// One Solve whose every evaluated pose is matched anew, with non-monotone steps: what is
   /// minimised is the re-associated objective itself. Not for matchers that reject: where n changes
-  /// from pose to pose, sums over n pairs cannot be compared (kNoDescent is how that ends).
+  /// from pose to pose, sums over n pairs cannot be compared (it ends with kNoDescent).
   kEveryEvaluation,
   /// One Ceres step on frozen matches, then match again: ICP as it is written in textbooks.
   kEveryStep,
@@ -35,8 +35,8 @@ struct Iterate {
   long n = 0;
   double gradient_norm = 0;
   /// Of the Gauss-Newton Hessian over the free directions, rotations in units of 1 /
-  /// kRotationLength_m (m^2 per m^2). A smallest one near 0 is a direction that the pairs do not
-  /// see.
+  /// kRotationLength_m (m^2 per m^2). A smallest one near 0 means a direction that the pairs do not
+  /// determine.
   double smallest_eigenvalue = 0, largest_eigenvalue = 0;
   double step_m = 0;    ///< Length of the translation since the iterate before.
   double step_rad = 0;  ///< Angle of the rotation since the iterate before.
@@ -60,8 +60,8 @@ struct MinimizerOptions {
   /// what re-association leaves of the objective's smoothness.
   double min_step_m = 1e-4;
   double min_step_rad = 1e-5;
-  /// Ends where the cost changed by less than this share of it from one iterate to the next; 0
-  /// never does. The matches change between the two.
+  /// Ends where the cost changed by less than this share of it from one iterate to the next; 0:
+  /// never. The matches change between the two.
   double min_cost_change = 0;
   /// Ends where the cost is this or less [the paper's "falls below threshold", sec. 2].
   double max_final_cost = 0;
@@ -106,9 +106,9 @@ struct MinimizerSummary {
 
 /// The closed loop [paper fig. 1]: minimises the objective from a start pose with Ceres, through
 /// one SquareRootCost (or, for a loss with rho'' > 0, one residual block per pair; that needs
-/// kEveryStep and is said in the log). Never throws for trouble with the data: see termination.
-/// Under kEveryEvaluation the observer also sees what non-monotone steps tried on the way; the
-/// summary ends with the pose of least cost.
+/// kEveryStep and logs a warning). Bad data do not throw: see termination. Under kEveryEvaluation
+/// the observer also sees what non-monotone steps tried on the way; the summary ends with the pose
+/// of least cost.
 MinimizerSummary Minimize(const JointObjective& objective, const SE3d& T_start,
                           const MinimizerOptions& options);
 

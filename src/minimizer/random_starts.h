@@ -31,8 +31,8 @@ struct StartResult {
 };
 
 /// The start poses: T_reference Exp([omega; v]) with directions uniform on the sphere and lengths
-/// uniform up to the limits, of which what minimizer.free does not allow is left out; the same for
-/// the same seed on every machine.
+/// uniform up to the limits, without the directions that minimizer.free excludes; the same for the
+/// same seed on every machine.
 std::vector<SE3d> RandomStarts(const SE3d& T_reference, const RandomStartOptions& options);
 
 /// Minimises from every start, in parallel over starts; results in the order of RandomStarts.

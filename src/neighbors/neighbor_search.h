@@ -26,11 +26,11 @@ long SearchesBuilt();
 ///
 /// The squared distance is (dx*dx + dy*dy) + dz*dz in float without fused multiply-add, so that
 /// every machine and every SIMD level finds the same neighbours; ties go to the lower index. A
-/// point with a NaN or an infinity is nobody's neighbour, and such a query has none. Safe to query
+/// point with a NaN or an infinity is never found, and such a query finds nothing. Safe to query
 /// from many threads at once.
 ///
-/// Batches are what is fast: queries are searched in packets, which pays where consecutive queries
-/// lie close together, as points do in the Order() of their own search. See README.md.
+/// Batches are fast: queries are searched in packets, which pays where consecutive queries lie
+/// close together, as points do in the Order() of their own search. See README.md.
 class NeighborSearch {
  public:
   /// Results do not depend on `threads`, which only shortens the building.

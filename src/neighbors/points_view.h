@@ -6,7 +6,7 @@
 
 namespace icpscape {
 
-/// Arrays that are read in whole vectors have so many elements more than they say.
+/// Arrays that are read in whole vectors have this many elements behind their last one.
 constexpr std::size_t kPadding = 16;
 
 /// Three arrays of equal length; the caller keeps them alive.

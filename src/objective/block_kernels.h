@@ -28,7 +28,7 @@ struct BlockSums {
   bool upward_loss;  ///< rho''(s) > 0 somewhere.
 };
 
-/// rho and eps for eight squared residual norms at once; null stands for rho(s) = eps(s) = s.
+/// rho and eps for eight squared residual norms at once; null: rho(s) = eps(s) = s.
 struct BlockTerms {
   struct Values {
     double rho[8], rho_slope[8], rho_curvature[8];

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Compiled for this level alone; see CMakeLists.txt.
+// Compiled only for this level; see CMakeLists.txt.
 #define ICPSCAPE_SIMD_LEVEL baseline
 #define ICPSCAPE_SIMD_WIDTH 4
 #include "src/objective/block_kernels.inc"

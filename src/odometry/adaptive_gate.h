@@ -8,17 +8,17 @@
 
 namespace icpscape {
 
-/// How far apart the points of a pair may be, from how far predictions were off so far
-/// [KISS-ICP, Vizzo et al. 2023, eq. 7 to 9]: 3 sigma, where sigma^2 is the mean square of
+/// The gate of a registration, from the errors of the predicted poses so far [KISS-ICP, Vizzo et
+/// al. 2023, eq. 7 to 9]: 3 sigma, where sigma^2 is the mean square of
 ///   delta = |t| + 2 r sin(theta / 2)
-/// over all frames whose delta is above kSmallest_m, (theta, t) being the prediction's error and r
-/// the farthest range: how far it can displace a point.
+/// over all frames whose delta is above kSmallest_m, (theta, t) being the error of the predicted
+/// pose and r the farthest range: delta is how far it can displace a point.
 class AdaptiveGate {
  public:
   static constexpr double kSmallest_m = 0.1;
   static constexpr double kFarthestRange_m = 100;
 
-  /// The first prediction is taken to be off by so much.
+  /// The first predicted pose is assumed to be off by this.
   explicit AdaptiveGate(double initial_m) : sum_squared_(initial_m * initial_m) {}
 
   double MaxDistance_m() const { return 3 * std::sqrt(sum_squared_ / count_); }

@@ -29,7 +29,7 @@ void ForEachNumber(Record& record, const Visit& visit) {
   visit(record.odometry_s);
 }
 
-// The largest value of a type of whole numbers; none of ours is below 0.
+// The largest value of a type of whole numbers; all of ours are at least 0.
 template <class T>
 double Largest() {
   if constexpr (std::is_enum_v<T>) {

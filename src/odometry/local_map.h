@@ -10,13 +10,13 @@ namespace icpscape {
 struct LocalMapOptions {
   double voxel_m = 0.5;  ///< One point per voxel; of edges and of planar points likewise.
   double radius_m = 80;  ///< Points farther from the vehicle are dropped, or never come in.
-  /// Only points of so many last scans, whether all of them went into the map or not; 0 is no
+  /// Only points of this many last scans, whether or not all of them went into the map; 0 is no
   /// limit. 1 is the paper's.
   int scans = 0;
 };
 
-/// The surroundings as the last scans saw them: all points, and, apart from one another, edges and
-/// planar points, as LOAM's mapping has them. Those that are needed.
+/// The surroundings as the last scans saw them: all points, edges, and planar points, as in LOAM's
+/// mapping; only those that are needed.
 class LocalMap {
  public:
   /// `needs` is the union of what the metrics need; all points are kept where one of them is of

@@ -44,7 +44,7 @@ void OdometryOptions::Check() const {
   }
   if (mode != OdometryMode::kScanToScan && filters.Any() && AnyFeatures(metrics)) {
     throw UsageError(
-        "filters compare two scans, and maps of edges and planar points are none; expected no "
+        "filters compare two scans, but edges and planar points are matched to maps; expected no "
         "filter, scan_to_scan, or metrics of closest points.");
   }
 }
@@ -119,7 +119,7 @@ Odometry::Registration Odometry::RegisterToMap(const PreparedScan& source, const
   for (const std::optional<SearchableCloud>* cloud : {&map.points, &map.edges, &map.planar}) {
     result->map_points += *cloud ? (*cloud)->cloud().size() : 0;
   }
-  if (options_.filters.Any()) {  // Of closest points alone; see OdometryOptions::Check.
+  if (options_.filters.Any()) {  // Only with closest points; see OdometryOptions::Check.
     return Register({source, PreparedScan(*map.points)}, T_predicted);
   }
   Registration registration;

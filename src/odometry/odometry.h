@@ -30,16 +30,17 @@ struct Names<OdometryMode> {
 struct OdometryOptions {
   OdometryMode mode = OdometryMode::kScanToMap;
   std::vector<std::string> metrics = {"point_to_plane"};
-  std::vector<double> weights;  ///< One per metric; none is 1 each.
+  std::vector<double> weights;  ///< One per metric; empty: 1 each.
   PreparationOptions preparation;
-  FilterOptions filters;  ///< T_e is the predicted motion.
+  FilterOptions filters;  ///< They use the predicted pose.
   ObjectiveSetOptions objective;
   MinimizerOptions minimizer;
   LocalMapOptions map;
-  int map_every = 10;             ///< kTwoStage: a mapping step every so many scans.
-  bool constant_velocity = true;  ///< Start from the motion before; else from no motion.
-  /// If positive: the longest distance of a pair follows from how far predictions were off, and
-  /// this is what the first is taken to be off by (m); see AdaptiveGate.
+  int map_every = 10;  ///< kTwoStage: a mapping step every so many scans.
+  /// The predicted pose is the motion of the scan before; else the identity.
+  bool constant_velocity = true;
+  /// If positive: the gate follows from the errors of the predicted poses, and this is the assumed
+  /// error of the first (m); see AdaptiveGate.
   double adaptive_gate_m = 0;
   int threads = 1;
 
@@ -53,8 +54,7 @@ struct FrameResult {
   /// Motion since the scan before, T_previous_current, as the predictor takes it: in kTwoStage
   /// before the map's correction.
   SE3d motion;
-  /// Whether a stage had an answer. False for the first scan, and where the prediction had to stand
-  /// in.
+  /// Whether a stage had an answer. False for the first scan, and where the predicted pose is used.
   bool registered = false;
   Termination termination = Termination::kFailure;
   int iterations = 0;          ///< Of all stages.
@@ -66,17 +66,17 @@ struct FrameResult {
 };
 
 /// Lidar odometry: feeds scans one after the other through preparation, filters and the closed
-/// loop [paper fig. 1], starting each registration from the motion before. A scan that cannot be
-/// registered (no pair is left, the loss is flat) gets the predicted motion, and says so.
-/// Bit-identical for any number of threads.
+/// loop [paper fig. 1], starting each registration at the predicted pose. A scan that cannot be
+/// registered (no pair is left, the loss is flat) keeps the predicted pose, and is not
+/// `registered`. Bit-identical for any number of threads.
 class Odometry {
  public:
   /// Throws UsageError.
   explicit Odometry(OdometryOptions options);
   ~Odometry();
 
-  /// Registers the next scan. Throws InputError where the first cannot be prepared (see Prepare):
-  /// then none will be. A later one counts as empty.
+  /// Registers the next scan. Throws InputError where the first scan cannot be prepared (see
+  /// Prepare), since then no other will be. A later one that cannot counts as empty.
   FrameResult Add(PointCloud scan);
 
   /// Takes over what Add returned for the next scan in an earlier run, without registering it:

@@ -14,16 +14,16 @@
 
 namespace icpscape {
 
-/// An odometry over a drive that a stopped run goes on with: every scan that is done is a record in
-/// the journal. Replay and Register in this order go through the whole drive; the results are bit
-/// for bit those of a run that was never stopped.
+/// An odometry over a drive that goes on after a stop: the journal has a record of every scan that
+/// is done. Replay and then Register go through the whole drive; the results are bit for bit those
+/// of a run that was never stopped.
 class ResumableOdometry {
  public:
   /// Called with the number of scans done, after each.
   using Progress = std::function<void(int)>;
 
-  /// A map of the whole drive is kept with one point per voxel of `map_voxel_m`, and none where
-  /// that is 0. The journal must live as long as this object. Throws UsageError.
+  /// Keeps a map of the whole drive with one point per voxel of `map_voxel_m`; 0: no map. The
+  /// journal must live as long as this object. Throws UsageError.
   ResumableOdometry(ScanSequence sequence, OdometryOptions options, double map_voxel_m,
                     Journal* journal);
 

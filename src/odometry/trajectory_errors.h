@@ -11,7 +11,7 @@
 namespace icpscape {
 
 /// A true and an estimated trajectory of the same body, pose by pose. The two may have different
-/// world frames; only AbsoluteErrors minds, and aligns if told to.
+/// world frames; only AbsoluteErrors depends on them, and takes an alignment.
 struct TrajectoryPair {
   std::vector<SE3d> truth;      ///< T_world_body.
   std::vector<SE3d> estimate;   ///< T_world_body, as many.
@@ -40,9 +40,9 @@ struct SegmentError {
 };
 
 /// What the devkit does: from every tenth frame, for each length, to the first frame that lies
-/// farther than that along the truth. Empty for a path of less than 100 m. Where there are no times
-/// the devkit's count stands: 0.1 s for each frame of the stretch, both ends included. (The devkit
-/// computes in float, and its angle by acos of a trace, which loses angles below 3e-4 rad.)
+/// farther than that along the truth. Empty for a path of less than 100 m. Without times, as in the
+/// devkit: 0.1 s for each frame of the stretch, both ends included. (The devkit computes in float,
+/// and its angle by acos of a trace, which loses angles below 3e-4 rad.)
 std::vector<SegmentError> KittiSegmentErrors(const TrajectoryPair& pair);
 
 inline constexpr double kKittiLengthsM[] = {100, 200, 300, 400, 500, 600, 700, 800};
@@ -81,7 +81,7 @@ struct Names<Alignment> {
 
 /// T_truth_estimate, from the estimate's world to the truth's. Nothing for kRigid where either
 /// trajectory's positions lie on one line, to a hundredth of its length: then the rotation about it
-/// is anybody's guess.
+/// is undetermined.
 std::optional<SE3d> AlignmentOf(const TrajectoryPair& pair, Alignment alignment);
 
 /// Errors of poses, one entry each: |t(E)| in metres and angle(E) in radians.

@@ -111,7 +111,8 @@ void HighwayImproved(const FigureView& f4, ClaimList* claims) {
                             Fixed(rise(Variant::kPlain), 4);
                 return rise(Variant::kReciprocal) < rise(Variant::kPlain);
               });
-  claims->ArgminNear("F4e", f4, point, 1, Variant::kEgoFilter, "point with the ego filter");
+  claims->ArgminNear("F4e", f4, point, 1, Variant::kEgoFilter,
+                     "point with the ego blind spot filter");
   claims->ArgminNear("F4+", f4, point, 0, Variant::kBlindSpot,
                      "point with the artificial blind spot but no filter (the fair baseline)");
 }
@@ -237,15 +238,15 @@ void Conclusions(const FigureView& f1, const FigureView& f2, const FigureView& f
                 return std::max(mean_off("point_to_plane"), mean_off("symmetric")) <
                        mean_off("planar_to_patch");
               });
-  claims->Add("C5",
-              "missing overlap matters strongly (the ego filter moves point by over half from the "
-              "artificial blind spot alone)",
-              {f4}, [=](std::string* measured) {
-                const Curve& baseline = f4.Of("point_to_point", Variant::kBlindSpot);
-                const Curve& filtered = f4.Of("point_to_point", Variant::kEgoFilter);
-                *measured = StarText(baseline) + "; filtered " + StarText(filtered);
-                return Off(filtered) < 0.5 * Off(baseline);
-              });
+  claims->Add(
+      "C5",
+      "missing overlap matters strongly (the ego blind spot filter halves point's distance from 1)",
+      {f4}, [=](std::string* measured) {
+        const Curve& baseline = f4.Of("point_to_point", Variant::kBlindSpot);
+        const Curve& filtered = f4.Of("point_to_point", Variant::kEgoFilter);
+        *measured = StarText(baseline) + "; filtered " + StarText(filtered);
+        return Off(filtered) < 0.5 * Off(baseline);
+      });
   claims->Add("C6", "the octree filter helps any metric (no u* farther from 1; one closer)",
               {f5, f6}, [=](std::string* measured) {
                 int closer = 0;

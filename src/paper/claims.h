@@ -22,7 +22,7 @@ struct Claim {
 /// "holds", "does not hold" or "not drawn".
 std::string OutcomeName(Claim::Outcome outcome);
 
-/// What the claims are about.
+/// The curves and motions on which the claims are checked.
 struct ClaimInputs {
   std::map<std::string, Curve> curves;  ///< By the file names of PaperFigures().
   std::map<std::string, SE3d> motions;  ///< T_target_source by the figures' names.

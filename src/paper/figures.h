@@ -13,7 +13,7 @@ namespace icpscape {
 enum class Variant {
   kPlain,
   kReciprocal,  ///< Strict reciprocal correspondences [paper sec. 2.5].
-  kBlindSpot,   ///< Artificial blind spot alone: the fair baseline of the next.
+  kBlindSpot,   ///< Only the artificial blind spot: the fair baseline of the next.
   kEgoFilter,   ///< Artificial blind spot, then ego blind spot filter [sec. 2.6 and 4.2].
   kOctree,      ///< Octree Correspondence Filter [sec. 2.7].
 };
@@ -26,13 +26,13 @@ struct FigureCurve {
   std::string legend;
   std::string color;     ///< xcolor's name.
   std::string style;     ///< solid, dashed or dashdotted.
-  bool in_paper = true;  ///< The others are ours alone: drawn thin and grey, not in the TeX files.
+  bool in_paper = true;  ///< The others are only ours: thin and grey, not in the TeX files.
 };
 
 /// One of the paper's six result figures.
 struct Figure {
   std::string name;                 ///< The label of the paper: "00_1500".
-  std::string scene;                ///< The simulated one that stands in.
+  std::string scene;                ///< Simulated, with the motion of the frame.
   std::string sequence;             ///< KITTI.
   int frame;                        ///< The source; the target is the frame before.
   std::vector<FigureCurve> curves;  ///< In the order of the legend.

@@ -10,7 +10,7 @@
 
 namespace icpscape {
 
-/// A one-parameter family of poses about the true motion: the error e of an estimate.
+/// Poses about the true motion along one axis: pose(e) is off by e.
 struct ErrorAxis {
   std::string name;  ///< "along_path" or "yaw".
   std::string unit;  ///< "m" or "deg".
@@ -43,7 +43,7 @@ struct DynamicRemains {
 
 /// A dynamic point overlaps where a point of the same object in the target is within reach_m of it
 /// under T: there the object's two poses cover the same place, and a filter by occupied voxels must
-/// keep it. Objects are told apart by their whole label. Throws InputError without labels.
+/// keep it. Points of one object have the same whole label. Throws InputError without labels.
 DynamicRemains FindDynamicRemains(const PointCloud& source, const PointCloud& target,
                                   const std::vector<char>& keep_source, const SE3d& T_target_source,
                                   double reach_m,

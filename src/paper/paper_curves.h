@@ -18,9 +18,9 @@ namespace icpscape {
 /// neighbours, and features of five points to either side on the recovered rings.
 PreparedPair PrepareForPaper(PointCloud source, PointCloud target, int threads);
 
-/// The scans after the variant's filters with this T_e, in the paper's sizes: radii of 5 m, voxels
-/// of 0.1 m. Normals and features are those of the whole scans and stay with their points. Throws
-/// ComputationError where a filter leaves nothing.
+/// The scans after the variant's filters with this predicted pose, in the paper's sizes: radii of 5
+/// m, voxels of 0.1 m. Normals and features are those of the whole scans and stay with their
+/// points. Throws ComputationError where a filter leaves nothing.
 PreparedPair Filtered(const PreparedPair& scans, Variant variant, const SE3d& T_estimate,
                       int threads);
 
@@ -34,8 +34,8 @@ struct PaperCurve {
 };
 
 /// By file names; what two figures share is evaluated once. From the identity (u = 0) to the truth
-/// (u = 1) along the paper's path; the filters' T_e is `T_predicted`. `progress` as in
-/// EvaluateCurves, over all variants.
+/// (u = 1) along the paper's path; the filters use `T_predicted`. `progress` as in EvaluateCurves,
+/// over all variants.
 std::map<std::string, PaperCurve> EvaluatePaperCurves(
     const PreparedPair& scans, const SE3d& T_ground_truth, const SE3d& T_predicted,
     const std::vector<FigureCurve>& curves, const CurveOptions& options,

@@ -21,7 +21,7 @@ struct PreparedPair {
   }
 };
 
-/// Each scan with what it needs: features are extracted of the source alone, since metrics of lines
+/// Each scan with what it needs: features are extracted only of the source, since metrics of lines
 /// and patches fit to all points of the target.
 inline PreparedPair PreparePair(PointCloud source, PointCloud target, unsigned needs,
                                 const PreparationOptions& options, int threads) {

@@ -108,8 +108,8 @@ class Lanes {
     return result;
   }
 
-  // One branch is taken for all lanes. That is right for what depends on the pose alone; a metric
-  // whose pairs want different branches stops here, at its first test.
+  // One branch is taken for all lanes. That is right for what depends only on the pose; a metric
+  // whose pairs need different branches stops here, at its first test.
   friend bool operator<(const Lanes& a, const Lanes& b) {
     return Agreed(a, b, [](double x, double y) { return x < y; });
   }

@@ -48,8 +48,8 @@ bool IsWhole(const std::filesystem::path& folder, const std::string& name, const
          std::filesystem::exists(folder / name) && Sha256(folder / name) == files[name];
 }
 
-// Measured data and simulated must not mix: a slip in the folder could put a scene among KITTI's,
-// or write over its poses.
+// Measured and simulated data must not mix: in the wrong folder a scene could come among KITTI's,
+// or overwrite its poses.
 void RefuseForeignSequences(const std::filesystem::path& root) {
   const auto refuse_unless_simulated = [&](const std::string& sequence,
                                            const std::filesystem::path& place) {
@@ -108,7 +108,7 @@ DatasetSummary WriteDataset(const DatasetOptions& options, const std::vector<SE3
   Json record = {{"parameters", options.parameters}, {"files", Json::object()}};
   const auto write_record = [&] { WriteTextFile(record_path, record.dump(1) + "\n"); };
   if (known.empty()) {
-    // From here on the folder is ours, and nothing in it counts.
+    // From here on the folder is ours, and what it held is not valid.
     write_record();
     for (const char* kind : {"velodyne", "labels", "rings", "ply"}) {
       std::filesystem::remove_all(folder / kind);

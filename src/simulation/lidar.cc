@@ -90,7 +90,7 @@ PointCloud ScanWorld(const RayCaster& standing, const RayCaster* moving, const S
     Ring& ring = rings[static_cast<std::size_t>(ring_index)];
     Random laser(MixKeys(sensor_key, ring_index));
     const double bias = options.ring_bias_m * laser.Normal();
-    // Neither the lasers nor the turns are synchronised: each scan begins somewhere within a step.
+    // Firings and turns are not synchronised: each scan begins somewhere within a step.
     const double phase = laser.Uniform() + Random(key).Uniform();
     const double elevation = RingElevation(ring_index);
     const double height = RingHeight(ring_index);

@@ -48,11 +48,11 @@ int LastRingPastCar(double azimuth_rad);
 /// The scan of a snapshot of the world from T_world_lidar, in the lidar's frame, with intensity,
 /// rings and labels; ring by ring from the uppermost, counter-clockwise from forward.
 ///
-/// KITTI's scans are de-skewed by the car's own motion. Here all rays belong to one instant, which
-/// is that for everything at rest; what moves is not smeared (at 6 m/s relative to the lidar, abeam
-/// and seen within a quarter of a turn, by up to 15 cm).
+/// KITTI's scans are de-skewed by the car's own motion. Here all rays belong to one instant. For
+/// everything at rest that is the same; what moves is not smeared (at 6 m/s relative to the lidar,
+/// abeam and seen within a quarter of a turn, by up to 15 cm).
 ///
-/// Random numbers depend on `key` (one per scan), ring and azimuth alone, and the lasers' constant
+/// Random numbers depend on `key` (one per scan), ring and azimuth only, and the lasers' constant
 /// errors on `sensor_key`: the scan is the same for any number of threads.
 PointCloud ScanWorld(const RayCaster& standing, const RayCaster* moving, const SE3d& T_world_lidar,
                      const LidarOptions& options, std::uint64_t sensor_key, std::uint64_t key,

@@ -22,8 +22,8 @@ std::uint64_t MixKeys(std::uint64_t first, Keys... rest) {
   return key;
 }
 
-/// A stream of random numbers that is the same on every machine: integers and sums only, no libm
-/// and none of the standard library's distributions.
+/// A stream of random numbers that is the same on every machine: integers and sums only, without
+/// libm and the standard library's distributions.
 class Random {
  public:
   explicit Random(std::uint64_t key) : state_(key) {}

@@ -18,9 +18,9 @@ struct RayHit {
 
 /// First hits of rays with a mesh, through Embree. Safe to use from many threads at once.
 ///
-/// The tree is built by one thread with SSE2 code alone, so that a mesh gives the same hits on
-/// every machine. While a caster lives, Embree holds oneTBB to one thread in the whole process:
-/// cast from threads of your own, and keep casters short-lived.
+/// The tree is built by one thread with only SSE2 code, so that a mesh gives the same hits on every
+/// machine. While a caster lives, Embree holds oneTBB to one thread in the whole process: cast from
+/// threads of your own, and keep casters short-lived.
 class RayCaster {
  public:
   explicit RayCaster(Mesh mesh);

@@ -15,7 +15,8 @@
 namespace icpscape {
 namespace {
 
-// A simulator that is made with the first scan: who asks for poses alone does not pay for a world.
+// A simulator that is made with the first scan: a caller who asks only for poses does not pay for a
+// world.
 class LazySimulator {
  public:
   LazySimulator(std::function<World()> make_world, const LidarOptions& lidar, std::uint64_t seed)

@@ -77,7 +77,7 @@ TEST_F(Apps, RegisterFindsTheMotionAndItsCostIsTheLandscapes) {
   const std::string cost = iterates.back().at("cost");
   EXPECT_THAT(outcome.out, HasSubstr("final cost: " + cost));
   EXPECT_EQ(ReadCsv(Path("out/starts.csv")).size(), 10U);
-  // The landscape at that very pose: u = 1 of a path that ends there.
+  // The landscape at the same pose: u = 1 of a path that ends there.
   auto arguments = Files({"--samples=2", "--u_min=0", "--u_max=1", "--metrics=point_to_plane"});
   arguments[2] = "--ground_truth=" + Path("out/T_target_source.txt");
   arguments[3] = "--out=" + Path("out2");
@@ -86,7 +86,7 @@ TEST_F(Apps, RegisterFindsTheMotionAndItsCostIsTheLandscapes) {
   EXPECT_NEAR(landscape, std::stod(cost), 1e-12 * landscape);
 }
 
-TEST_F(Apps, RegisterStopsAndMovesAsItIsTold) {
+TEST_F(Apps, RegisterFollowsItsStopRulesAndDirections) {
   ASSERT_EQ(RunProgram("register", Files({"--dof=yaw,x"})).code, 0);
   const SE3d T = ReadTransform(Path("out/T_target_source.txt"));
   EXPECT_NE(T.LogRotation().z(), 0);
@@ -280,7 +280,7 @@ TEST_F(Apps, GroundTruthCheckWithoutAnAnswerIsNoFailure) {
   for (const char* app : {"landscape", "register"}) {
     const Outcome outcome = RunProgram(app, Files({"--metrics=point_to_point"}));
     EXPECT_EQ(outcome.code, 0) << outcome.err;
-    EXPECT_THAT(outcome.out, HasSubstr("ground-truth check: without an answer"));
+    EXPECT_THAT(outcome.out, HasSubstr("ground-truth check: no answer"));
   }
 }
 

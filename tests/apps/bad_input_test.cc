@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// One sentence and an exit code for everything that is wrong with a command line or its data.
+// Each error of a command line or its data gives one sentence and an exit code.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 

@@ -100,7 +100,7 @@ TEST_F(Evaluate, WritesTablesFiguresAndManifest) {
 
 TEST_F(Evaluate, TumByTimeAgreesWithKittiByRow) {
   Trajectory estimate = Circle(1.01, 300);
-  estimate.times_s.back() = 100;  // Without a partner.
+  estimate.times_s.back() = 100;  // Without a true pose at that time.
   WriteTumTrajectory(Path("estimate.tum"), estimate);
   WriteTumTrajectory(Path("truth.tum"), Circle(1, 300));
   const Outcome outcome =

@@ -18,7 +18,7 @@ using testing_support::ReadFile;
 using testing_support::RunProgram;
 using testing_support::TemporaryFolder;
 
-// Measured: along the path the Octree Correspondence Filter returns its own prior.
+// Measured: along the path the Octree Correspondence Filter returns its predicted pose.
 TEST(FilterBiasApp, MinimumFollowsThePriorAlongThePath) {
   const TemporaryFolder folder;
   const std::string out = folder.path().string();

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// --help: which flags a program has, by group, and what they are without being given.
+// --help: the flags of a program, by group, and their defaults.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -41,14 +41,14 @@ std::map<std::string, FlagOfHelp> FlagsOf(const std::string& app) {
 
 TEST(AppsHelp, IsGroupedByTheFilesThatDefineTheFlags) {
   auto flags = FlagsOf("landscape");
-  EXPECT_EQ(flags["iterates"].group, "icpscape-landscape");  // Of the program alone.
+  EXPECT_EQ(flags["iterates"].group, "icpscape-landscape");  // Only this program has it.
   EXPECT_EQ(flags["reference"].group, "icpscape-landscape");
   EXPECT_EQ(flags["u_min"].group, "Curve along the path");
   EXPECT_EQ(flags["frozen_u"].group, "Curve along the path");
   EXPECT_EQ(flags["range_noise_m"].group, "Simulated lidar");
   EXPECT_EQ(flags["loss"].group, flags["metrics"].group);
   EXPECT_NE(flags["loss"].group, flags["kept_fraction"].group);
-  // Each group has one heading, and no flag stands before the first.
+  // Each group has one heading, and no flag comes before the first.
   const std::string help = RunProgram("landscape", {"--help"}).out;
   for (const auto& [name, flag] : flags) {
     EXPECT_FALSE(flag.group.empty()) << name;
@@ -109,7 +109,7 @@ TEST(AppsHelp, MeansTheSameEverywhere) {
     EXPECT_EQ(flags["threads"].group, "Run") << app;
     EXPECT_EQ(flags["threads"].default_value, "0") << app;
   }
-  EXPECT_EQ(FlagsOf("paper_figures").count("source"), 0U);  // --kitti_root says it.
+  EXPECT_EQ(FlagsOf("paper_figures").count("source"), 0U);  // It has --kitti_root.
   EXPECT_EQ(FlagsOf("register")["start_m"].default_value,
             FlagsOf("covariance")["start_m"].default_value);
 }

@@ -66,7 +66,7 @@ TEST(Iterates, RunFromTheStartToTheReferenceAndAreThoseOfRegister) {
 }
 
 // In traffic pairs change along the path: the solver ends where the gradient of its pairs vanishes,
-// and not where the curve is lowest (docs/experiments.md).
+// and not where the curve is lowest (docs/experiments/iterates_on_the_curve.md).
 TEST(Iterates, EndWhereTheGradientVanishesAndNotAtTheCurvesMinimum) {
   const TemporaryFolder out;
   ASSERT_EQ(RunProgram("landscape",

@@ -53,7 +53,7 @@ TEST_F(OdometryOnKitti, EndsWithinTwoCentimetres) {
   EXPECT_LT(DistanceM(Poses().back(), truth), 0.02);
 }
 
-// The truth of these frames is poor: the drive is its own witness.
+// The truth of these frames is poor: the drive there and back must end at its start.
 TEST_F(OdometryOnKitti, AgreesForwardsAndBackwards) {
   ICPSCAPE_SKIP_WITHOUT_KITTI();
   const std::vector<std::string> flags = {"--kitti_root=" + KittiRoot().string(), "--sequence=00",

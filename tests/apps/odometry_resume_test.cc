@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What a run leaves behind when it is stopped, and how the next goes on.
+// What a stopped run leaves, and how the next run goes on.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <sys/file.h>
@@ -111,7 +111,7 @@ TEST_F(OdometryApp, GoesOnWhereItWasInterrupted) {
   EXPECT_EQ(Journal().size(), static_cast<std::size_t>(testing_support::kScans));
 }
 
-// A run that is done is told again from its journal alone.
+// A run that goes on from a journal repeats the results of a whole run.
 TEST_F(OdometryApp, RepeatsItsResults) {
   for (const char* mode : {"scan_to_scan", "two_stage"}) {
     const std::vector<std::string> flags = {std::string("--mode=") + mode, "--frames=0:5",
@@ -131,7 +131,7 @@ TEST_F(OdometryApp, RepeatsItsResults) {
   }
 }
 
-TEST_F(OdometryApp, GoesOnWithTheSameFlagsAlone) {
+TEST_F(OdometryApp, GoesOnOnlyWithTheSameFlags) {
   const std::string frames = "--frames=0:2";
   ASSERT_EQ(Run({frames, "--mode=scan_to_scan"}).code, 0);
   const std::string journal = ReadFile(Path("out/journal.txt"));
@@ -164,7 +164,7 @@ TEST_F(OdometryApp, GoesOnWithTheSameFlagsAlone) {
   EXPECT_THAT(moved.out, HasSubstr(replayed));
   std::filesystem::rename(Path("moved"), Path("kitti"));
 
-  // Not even --restart takes the folder from a run that is at it.
+  // Not even --restart takes the folder from a running program.
   const int file = open(Path("out/journal.txt").c_str(), O_RDWR | O_CLOEXEC);
   ASSERT_EQ(flock(file, LOCK_EX), 0);
   const std::string kept = ReadFile(Path("out/journal.txt"));

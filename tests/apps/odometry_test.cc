@@ -107,7 +107,7 @@ TEST_F(OdometryApp, NamesTheScanThatHasNoRings) {
   const Outcome outcome = Run({loam, "--frames=1:5"}, "later");
   EXPECT_EQ(outcome.code, 0) << outcome.err;
   EXPECT_THAT(outcome.err, HasSubstr("frame 2: the points form"));
-  EXPECT_THAT(outcome.out, HasSubstr("could not be registered: the prediction stands in"));
+  EXPECT_THAT(outcome.out, HasSubstr("could not be registered and keep the predicted pose"));
 }
 
 TEST_F(OdometryApp, RefusesMissingData) {
@@ -154,7 +154,7 @@ TEST(OdometryCommandLine, IsRefusedWhereItIsWrong) {
   refuse({"--metrics=edge_to_line", "--voxel_m=0.25"},
          "--voxel_m=0.25: expected 0 with edge_to_line");
   refuse({"--metrics=edge_to_line", "--octree_voxel_m=0.1"},
-         "maps of edges and planar points are none");
+         "edges and planar points are matched to maps");
   refuse({"--metrics=point_to_pint"}, "expected one of point_to_point");
   refuse({"--weights=1,2"}, "--weights=1,2: expected one weight per metric");
   refuse({"--reassociation=every_evaluation", "--adaptive_gate_m=2"},

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The paper's figures as users draw them, and what came out of its claims.
+// The paper's figures as users draw them, and the outcome of its claims.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -71,8 +71,9 @@ TEST(PaperFigures, OneFigureWithItsTablesAndClaims) {
 }
 
 // What was measured on the simulated scenes, with half the lidar's azimuth steps and 31 poses.
-// docs/experiments.md has the full run: what differs is as fine as the step of 0.1 (F1h and C2, the
-// offset of point-to-point in a straight street; F3g) or shallow (F4c).
+// docs/experiments/paper_claims.md has the full run. The claims that differ depend on less than a
+// step of 0.1 (F1h and C2, the offset of point-to-point in a straight street; F3g) or on a shallow
+// minimum (F4c).
 TEST(PaperFigures, ClaimsOfTheSimulatedScenes) {
   const TemporaryFolder folder;
   const Outcome outcome = DrawFigures(folder, {"--samples=31", "--azimuth_step_deg=0.36"});

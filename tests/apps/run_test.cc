@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The folder of a run: what is written, what an earlier run leaves behind, and what an interruption
-// does.
+// The folder of a run: its files, those of earlier runs, and interruptions.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -217,7 +216,7 @@ TEST_F(RunOfAProgram, NamesChangedFlagsInTitlesAndManifest) {
                                                 "--out=" + Path("out"), "--" + flag};
     EXPECT_TRUE(title_has("landscape", arguments, "landscape.svg", "-" + flag)) << flag;
   }
-  // Without a say in what is drawn there is no need to name it: the RMSE knows no loss.
+  // What does not change the picture is not named: the RMSE is without loss.
   EXPECT_FALSE(title_has("landscape", Files({"--samples=3", "--loss=huber"}), "landscape.svg",
                          "-loss=huber"));
 }

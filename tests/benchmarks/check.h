@@ -14,7 +14,7 @@ namespace icpscape {
 // Each function throws Mismatch, naming the peer and the place, where the two answers differ.
 
 /// Equal squared distances up to a relative tolerance (0: bit for bit), and indices that have them;
-/// equally near points may be told apart by rounding.
+/// rounding may choose between equally near points.
 void CheckNearest(const std::string& peer, const PointCloud& target, const PointCloud& queries,
                   const NearestResult& ours, const NearestResult& theirs, double tolerance);
 

@@ -70,7 +70,7 @@ void Run(const Comparison& comparison, benchmark::State* state) {
     state->counters["ratio"] = Quantile(ratio, 0.5);
     state->counters["ratio_q1"] = Quantile(ratio, 0.25);
     state->counters["ratio_q3"] = Quantile(ratio, 0.75);
-    state->counters["goal"] = comparison.goal;
+    state->counters["is_main"] = comparison.is_main ? 1 : 0;
   }
 }
 

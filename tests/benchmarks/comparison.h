@@ -19,9 +19,9 @@ struct Side {
 
 /// Two sides that do the same work on the same data.
 struct Comparison {
-  std::string name;   ///< "normals/pcl/t1": for --benchmark_filter.
-  std::string title;  ///< "20-neighbour normals, 1 thread": for people.
-  double goal = 0;    ///< The least time(peer) / time(ours) to reach; 0 is none.
+  std::string name;      ///< "normals/pcl/t1": for --benchmark_filter.
+  std::string title;     ///< "20-neighbour normals, 1 thread": for people.
+  bool is_main = false;  ///< Listed in the table of the main ratios.
   Side ours;
   Side peer;
   /// Called once after both sides have run: throws Mismatch where their answers differ.
@@ -34,7 +34,7 @@ struct Mismatch : std::runtime_error {
 
 /// Registers the comparison with Google Benchmark. The sides run in turn, `rounds` times, and begin
 /// in turn, so that both see the same machine; reported are the medians of the times ("ours_ms",
-/// "peer_ms") and of the rounds' ratios ("ratio", with its quartiles), beside "goal".
+/// "peer_ms") and of the rounds' ratios ("ratio", with its quartiles), and "is_main".
 void Register(const Comparison& comparison, int rounds);
 
 /// Whether a check has failed so far.

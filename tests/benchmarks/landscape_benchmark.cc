@@ -67,7 +67,7 @@ struct Poses {
 
 // The naive loop: PCL, one thread, one search per metric, point and pose.
 void AddNaive(const BenchmarkPair& pair, const std::string& name, const std::string& title,
-              const std::vector<std::string>& metrics, double goal, int rounds) {
+              const std::vector<std::string>& metrics, int rounds) {
   const auto curves = std::make_shared<std::vector<Curve>>();
   const auto theirs = std::make_shared<std::vector<std::vector<double>>>();
   const Poses poses(pair, FLAGS_naive_poses);
@@ -81,7 +81,7 @@ void AddNaive(const BenchmarkPair& pair, const std::string& name, const std::str
   }
   Register({"landscape/" + name + "/t2/pcl_naive",
             title,
-            goal,
+            true,
             {"icpscape", [=, &pair] { *curves = OurCurves(pair, metrics, 2); }},
             {poses.Title("PCL naive, 1 thread"),
              [=] {
@@ -102,13 +102,13 @@ void AddNaive(const BenchmarkPair& pair, const std::string& name, const std::str
            rounds);
 }
 
-void AddByHand(const BenchmarkPair& pair, int threads, double goal, int rounds) {
+void AddByHand(const BenchmarkPair& pair, int threads, int rounds) {
   const auto curves = std::make_shared<std::vector<Curve>>();
   const auto theirs = std::make_shared<std::vector<std::array<double, 3>>>();
   const Poses poses(pair, FLAGS_by_hand_poses);
   Register({"landscape/closest_point/" + ThreadsName(threads) + "/nanoflann_by_hand",
             "landscape, 3 closest-point metrics, 100 poses, " + ThreadsTitle(threads),
-            goal,
+            threads == 2,
             {"icpscape", [=, &pair] { *curves = OurCurves(pair, kClosestPoint, threads); }},
             {poses.Title("nanoflann by hand, as many threads"),
              [=, &pair] { *theirs = LandscapeByHand(pair.source, pair.target, poses.T, threads); },
@@ -135,7 +135,7 @@ void AddThreads(const BenchmarkPair& pair, const std::string& name, const std::s
   const auto one = std::make_shared<std::vector<Curve>>();
   Register({"landscape/" + name + "/threads",
             title,
-            1.8,
+            true,
             {"icpscape", [=, &pair] { *two = OurCurves(pair, metrics, 2); }},
             {"icpscape, 1 thread", [=, &pair] { *one = OurCurves(pair, metrics, 1); }},
             [=, &pair] {
@@ -153,10 +153,10 @@ void AddThreads(const BenchmarkPair& pair, const std::string& name, const std::s
 void RegisterLandscape(const BenchmarkPair& pair, int rounds) {
   const std::string three = "landscape, 3 closest-point metrics, 100 poses, 2 threads";
   const std::string five = "landscape, all five metrics of the paper, 100 poses, 2 threads";
-  AddNaive(pair, "closest_point", three, kClosestPoint, 60, rounds);
-  AddByHand(pair, 2, 5, rounds);
-  AddByHand(pair, 1, 0, rounds);
-  AddNaive(pair, "five", five, kFive, 25, rounds);
+  AddNaive(pair, "closest_point", three, kClosestPoint, rounds);
+  AddByHand(pair, 2, rounds);
+  AddByHand(pair, 1, rounds);
+  AddNaive(pair, "five", five, kFive, rounds);
   AddThreads(pair, "closest_point", three, kClosestPoint, rounds);
   AddThreads(pair, "five", five, kFive, rounds);
 }

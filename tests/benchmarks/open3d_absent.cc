@@ -3,7 +3,7 @@
 
 #include "tests/benchmarks/open3d_peer.h"
 
-// Stands in for open3d_peer.cc where Open3D is not installed.
+// Replaces open3d_peer.cc where Open3D is not installed.
 
 namespace icpscape {
 namespace {

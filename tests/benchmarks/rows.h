@@ -18,9 +18,8 @@ void RegisterVoxelFilter(const BenchmarkPair& pair, int rounds);
 void RegisterLandscape(const BenchmarkPair& pair, int rounds);
 void RegisterClosedLoop(const BenchmarkPair& pair, int rounds);
 
-/// The goal of work that is measured at AVX2 and above; 0, for none, where the program was told to
-/// run at the baseline.
-inline double FromAvx2(double goal) { return ActiveSimdLevel() == SimdLevel::kBaseline ? 0 : goal; }
+/// For rows that are main ones only at AVX2 and above.
+inline bool FromAvx2() { return ActiveSimdLevel() != SimdLevel::kBaseline; }
 
 /// "t1", for names, and "1 thread", for people.
 inline std::string ThreadsName(int threads) { return "t" + std::to_string(threads); }

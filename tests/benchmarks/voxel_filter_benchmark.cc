@@ -22,7 +22,7 @@ void RegisterVoxelFilter(const BenchmarkPair& pair, int rounds) {
   const auto theirs = std::make_shared<PointCloud>();
   Register({"voxel_filter/pcl",
             title,
-            0,
+            false,
             ours,
             {"PCL", [=] { *theirs = PclVoxelFilter(pcl_cloud, static_cast<float>(kVoxelM)); }},
             [=] { CheckCentroids("PCL", *filtered, *theirs); }},
@@ -32,7 +32,7 @@ void RegisterVoxelFilter(const BenchmarkPair& pair, int rounds) {
     const auto count = std::make_shared<std::size_t>();
     Register({"voxel_filter/open3d",
               title,
-              0,
+              false,
               ours,
               {"Open3D", [=] { *count = Open3dVoxelFilter(open3d_cloud, kVoxelM); }},
               // Its voxels begin elsewhere: about as many points, at other places.

@@ -166,7 +166,7 @@ TEST(Features, OfARealScanAreTheKnownShares) {
   // A second implementation, outside this project, counts the same 9286 of 121023 points, 7.7 %.
   EXPECT_EQ(ring.num_edge, 9286U);
   EXPECT_EQ(ring.num_edge + ring.num_planar + 64 * 10, cloud.size());
-  // Other neighbourhoods hardly know an edge.
+  // Other neighbourhoods find hardly any edge.
   options.smoothness.neighborhood = SmoothnessNeighborhood::kKNearest;
   EXPECT_EQ(ExtractFeatures(cloud, options, 2).num_edge, 24U);
   options.smoothness.neighborhood = SmoothnessNeighborhood::kRadius;

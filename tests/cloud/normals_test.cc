@@ -102,7 +102,7 @@ TEST(Normals, CovarianceOfFourPointsByHand) {
   }
 }
 
-// By default of the 20 nearest points, the point itself among them.
+// The default is the 20 nearest points, the point itself included.
 TEST(Normals, CovarianceOfTheTwentyNearestByBruteForce) {
   const PointCloud cloud = testing_support::Room(60, 1);
   const std::vector<Mat3> covariances = EstimateCovariances(cloud, {}, 1);

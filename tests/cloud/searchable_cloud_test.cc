@@ -50,7 +50,7 @@ TEST(SearchableCloud, OwnsWhatItIsMadeOf) {
   const long before = SearchesBuilt();
   std::optional<SearchableCloud> first(testing_support::Room(500, 3));
   const SearchableCloud copy = *first;
-  EXPECT_EQ(SearchesBuilt(), before);  // Nobody has searched yet.
+  EXPECT_EQ(SearchesBuilt(), before);  // No search was needed yet.
   EXPECT_EQ(&copy.search(), &first->search());
   EXPECT_EQ(&copy.cloud(), &first->cloud());
   first.reset();

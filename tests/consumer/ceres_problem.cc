@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// A metric in a ceres::Problem of one's own, as the README shows.
+// A metric in your own ceres::Problem, as the README shows.
 #include <ceres/ceres.h>
 
 #include <cstdio>

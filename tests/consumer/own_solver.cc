@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// A Gauss-Newton of one's own on the residuals: Eigen is all that it needs.
+// Your own Gauss-Newton on the residuals: it needs only Eigen.
 #include <Eigen/Dense>
 #include <cstdio>
 #include <random>

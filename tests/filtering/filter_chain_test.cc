@@ -87,7 +87,7 @@ TEST(FilterChain, IsItsFiltersOneAfterTheOther) {
     EXPECT_EQ(kept.target.size(), target.size());
     fewest = std::min(fewest, expected_source.size());
   }
-  EXPECT_GT(fewest, 100U);  // No comparison was of nothing.
+  EXPECT_GT(fewest, 100U);  // No comparison was of empty masks.
 }
 
 TEST(FilterChain, NamesTheFilterThatLeavesNothing) {
@@ -96,10 +96,10 @@ TEST(FilterChain, NamesTheFilterThatLeavesNothing) {
     return MessageOf<ComputationError>([&] { ApplyFilters(room, room, T, options); });
   };
   EXPECT_EQ(message({100, 0, 0}, SE3d()),
-            "artificial_blind_spot: no point is left; expected some to agree.");
-  EXPECT_EQ(message({5, 100, 0}, SE3d()), "ego_filter: no point is left; expected some to agree.");
+            "artificial_blind_spot: no point is left; expected at least one.");
+  EXPECT_EQ(message({5, 100, 0}, SE3d()), "ego_filter: no point is left; expected at least one.");
   const SE3d far(Mat3::Identity(), Vec3(500, 0, 0));
-  EXPECT_EQ(message({5, 0, 0.1}, far), "octree_filter: no point is left; expected some to agree.");
+  EXPECT_EQ(message({5, 0, 0.1}, far), "octree_filter: no point is left; expected at least one.");
 }
 
 }  // namespace

@@ -121,7 +121,7 @@ TEST(PointFiles, RefusesBrokenFiles) {
   const std::string whole = ReadFile(folder.path() / "whole.ply");
   const auto torn = folder.Write("torn.ply", whole.substr(0, whole.size() / 2));
   EXPECT_THAT(message(torn), HasSubstr("torn.ply"));
-  // Headers that PCL would trip over or believe.
+  // Headers on which PCL would fail, or which it would trust.
   const std::string pcd = "VERSION .7\nFIELDS x y z\nSIZE 4 4 4\nTYPE F F F\nCOUNT 1 1 1\n";
   const std::string rest = "VIEWPOINT 0 0 0 1 0 0 0\nPOINTS 1\nDATA ascii\n1 2 3\n";
   const std::string one = "WIDTH 1\nHEIGHT 1\n";
@@ -227,7 +227,7 @@ TEST(Manifest, ListsFilesForTheSameProgramAlone) {
   EXPECT_THAT(FilesOfManifest(path, "test").value(),
               testing::ElementsAre("curves.csv", "data/1.txt"));
   EXPECT_FALSE(FilesOfManifest(path, "another").has_value());
-  // Of an earlier version, which listed none, and of nobody.
+  // Manifests of an earlier version, without files, and of no program.
   folder.Write("manifest.json", R"({"program": "test"})");
   EXPECT_TRUE(FilesOfManifest(path, "test").value().empty());
   folder.Write("manifest.json", R"({"program": "test", "files": ["a.csv", 3]})");

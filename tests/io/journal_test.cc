@@ -108,7 +108,7 @@ TEST_F(JournalTest, BeginsAnewFromATornHeader) {
   }
 }
 
-// What is no journal is not ours to cut off.
+// A file that is no journal is not cut off.
 TEST_F(JournalTest, LeavesOtherFilesAlone) {
   for (const std::string text :
        {"a diary without a line feed", "a diary\n", "a diary\nof days\n"}) {

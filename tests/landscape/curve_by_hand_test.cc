@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Curves over a few points, whose values can be told by hand.
+// Curves over a few points, whose values are computed by hand.
 #include <gtest/gtest.h>
 
 #include <cmath>

@@ -27,7 +27,7 @@ PointCloud Cloud(const std::vector<Eigen::Vector3f>& points) {
 class NeighborLimitsAt : public testing_support::EverySimdLevel {};
 ICPSCAPE_INSTANTIATE_SIMD_LEVELS(NeighborLimitsAt);
 
-// A limit whose square no float can hold is none: all that is at a distance that one can.
+// A limit whose square no float can hold is no limit: all points at finite distances are found.
 TEST_P(NeighborLimitsAt, LimitsBeyondFloatsAreNone) {
   const PointCloud cloud = Cloud({{1e20F, 0, 0}, {1e18F, 0, 0}, {1, 0, 0}});
   const NeighborSearch search(cloud.View());
@@ -50,7 +50,7 @@ TEST_P(NeighborLimitsAt, LimitsBeyondFloatsAreNone) {
   EXPECT_EQ(index[16], -1);
 }
 
-// The nearest one is the least that can be asked for, and nothing is found where nothing is.
+// k below 1 counts as 1, and an empty cloud has no neighbours.
 TEST_P(NeighborLimitsAt, FewerThanOneIsOne) {
   const PointCloud cloud = testing_support::Room(50, 11), queries = testing_support::Room(5, 12);
   const auto distance = [&](std::size_t i, int j) {

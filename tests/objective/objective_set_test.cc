@@ -158,7 +158,7 @@ TEST(ObjectiveSet, RefusesAMetricWithoutPoints) {
   }
 }
 
-// A map can be without an edge.
+// A map may have no edges.
 TEST(ObjectiveSet, MatchesNothingInAnEmptyTarget) {
   const testing_support::MovedRoom& room = TheScene().room;
   PointCloud none;

@@ -178,7 +178,7 @@ TEST(Objective, KnowsWhichLossesCurveUpwards) {
   }
 }
 
-// Curves upwards between s and 1.04 s alone, and there but a little.
+// Curves upwards only between s and 1.04 s, and only a little.
 class UpwardBand final : public ceres::LossFunction {
  public:
   explicit UpwardBand(double low) : low_(low) {}

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What an objective makes of pairs that are few enough to be told by hand.
+// What an objective makes of pairs that are few enough to be computed by hand.
 #include <ceres/loss_function.h>
 #include <ceres/problem.h>
 #include <gtest/gtest.h>

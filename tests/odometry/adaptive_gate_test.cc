@@ -10,7 +10,7 @@ SE3d Motion(double yaw_rad, double x_m) {
   return SE3d(Eigen::AngleAxisd(yaw_rad, Vec3::UnitZ()).toRotationMatrix(), Vec3(x_m, 0, 0));
 }
 
-TEST(AdaptiveGate, BeginsWithWhatItIsTold) {
+TEST(AdaptiveGate, BeginsWithItsInitialError) {
   EXPECT_DOUBLE_EQ(AdaptiveGate(2).MaxDistance_m(), 6);
   EXPECT_DOUBLE_EQ(AdaptiveGate(0.5).MaxDistance_m(), 1.5);
 }
@@ -45,7 +45,7 @@ TEST(AdaptiveGate, ComparesPosesNotNumbers) {
 TEST(AdaptiveGate, PassesOverGoodPredictions) {
   AdaptiveGate gate(2);
   for (int i = 0; i < 10; ++i) {
-    gate.Add(Motion(0.1, 1), Motion(0.1, 1));           // A prediction that stood in.
+    gate.Add(Motion(0.1, 1), Motion(0.1, 1));           // A predicted pose that was kept.
     gate.Add(Motion(0.1, 1), Motion(0.1, 1 + 0.0999));  // Below 0.1 m.
     gate.Add(Motion(0, 1), Motion(0.00099, 1));         // 100 m * 0.00099.
   }

@@ -97,7 +97,7 @@ TEST_P(EveryMode, PredictsWhereAScanCannotBeRegistered) {
     EXPECT_EQ(results[4].motion.Matrix(), results[3].motion.Matrix());
     EXPECT_EQ((results[3].T_world_lidar * results[3].motion).Normalized().Matrix(),
               results[4].T_world_lidar.Matrix());
-    EXPECT_EQ(results[5].gate_m, results[4].gate_m);  // A prediction is no evidence for itself.
+    EXPECT_EQ(results[5].gate_m, results[4].gate_m);  // A kept predicted pose does not count.
     // Nothing can be registered to nothing either, but to the map it can.
     EXPECT_EQ(results[5].registered, Mode() == OdometryMode::kScanToMap);
     for (const std::size_t i : {6U, 7U}) {

@@ -30,8 +30,8 @@ TEST(Odometry, StartsFromTheMotionBefore) {
   }
 }
 
-// Each step over again from the parts that it is made of: T_e is the motion before, and the gate
-// is what KISS-ICP makes of the predictions' errors.
+// Each step again from its parts: the predicted pose is the motion of the scan before, and the gate
+// is KISS-ICP's, from the errors of the predicted poses.
 void ExpectTheChainOfItsParts(const OdometryOptions& options) {
   const std::vector<PointCloud> scans = FirstScans(4);
   const std::vector<FrameResult> results = RunAll(options, scans);
@@ -130,7 +130,7 @@ TEST(Odometry, FiltersAMapOfOneScanAsTheScan) {
   }
 }
 
-TEST(Odometry, KeepsTheMapThatItIsToldTo) {
+TEST(Odometry, KeepsTheMapOfItsOptions) {
   OdometryOptions options = Options(OdometryMode::kScanToMap);
   const auto points_of_map = [&](const LocalMapOptions& map) {
     options.map = map;
@@ -250,7 +250,7 @@ TEST(Odometry, RefusesOptionsThatCannotGoTogether) {
     options.filters.octree_voxel_m = 0.1;
     EXPECT_THAT(message(options), HasSubstr(mode == OdometryMode::kScanToScan
                                                 ? "nothing was thrown"
-                                                : "maps of edges and planar points are none"));
+                                                : "edges and planar points are matched to maps"));
   }
   OdometryOptions options = Options(OdometryMode::kScanToMap);
   options.weights = {1, 2};

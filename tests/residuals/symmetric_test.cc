@@ -15,7 +15,7 @@ struct ResidualProperties<Symmetric> : InvariantAndSmooth {
   }
 };
 
-// A turn about the point leaves e, but turns n_s: the residual changes by e . (omega x n_s), which
+// A turn about the point leaves e, but turns n_p: the residual changes by e . (omega x n_p), which
 // a slide along m takes back.
 template <>
 struct ResidualProperties<SymmetricRotated> : InvariantAndSmooth {
@@ -56,17 +56,17 @@ struct ResidualProperties<SymmetricSplit> : InvariantAndSmooth {
   }
 };
 
-// As for the rotated form; the slide must leave e . n_t alone.
+// As for the rotated form; the slide must leave e . n_q alone.
 template <>
 struct ResidualProperties<TwoPlane> : InvariantAndSmooth {
   static std::vector<Vec6> NullSpace(const TwoPlane& metric, const SE3d& T) {
-    const Vec3 n_t = T.R().transpose() * metric.n_target;
+    const Vec3 n_q = T.R().transpose() * metric.n_target;
     const Vec3 e = T.R().transpose() * (T * metric.p_source - metric.q_target);
-    const Vec3 u = metric.n_source - metric.n_source.dot(n_t) * n_t;
+    const Vec3 u = metric.n_source - metric.n_source.dot(n_q) * n_q;
     std::vector<Vec6> twists = RotationsAbout(metric.p_source, [&](const Vec3& omega) -> Vec3 {
       return -e.dot(omega.cross(metric.n_source)) / u.dot(metric.n_source) * u;
     });
-    twists.push_back(Slide(metric.n_source.cross(n_t)));
+    twists.push_back(Slide(metric.n_source.cross(n_q)));
     return twists;
   }
 };
@@ -89,7 +89,7 @@ Correspondence Pair() {
 
 }  // namespace
 
-// At the identity e = (0, 1, 2): e . n_s = 2, e . n_t = 1.
+// At the identity e = (0, 1, 2): e . n_p = 2, e . n_q = 1.
 TEST(Symmetric, KnownValuesAtTheIdentity) {
   EXPECT_EQ(Symmetric::From(Pair()).Residual(SE3d())[0], 3);
   EXPECT_EQ(SymmetricRotated::From(Pair()).Residual(SE3d())[0], 3);
@@ -99,14 +99,14 @@ TEST(Symmetric, KnownValuesAtTheIdentity) {
   EXPECT_EQ(both[1], 2);
 }
 
-// A quarter turn about x takes p to (1, -3, 2), so e = (0, -4, 1); n_s turns to (0, -1, 0).
+// A quarter turn about x takes p to (1, -3, 2), so e = (0, -4, 1); n_p turns to (0, -1, 0).
 TEST(Symmetric, KnownValuesAfterAQuarterTurn) {
   Mat3 R;
   R << 1, 0, 0, 0, 0, -1, 0, 1, 0;
   const SE3d T(R, Vec3::Zero());
   // Normals stay: e . ((0,0,1) + (0,1,0)) = 1 - 4.
   EXPECT_NEAR(Symmetric::From(Pair()).Residual(T)[0], -3, 1e-15);
-  // n_s turned: e . ((0,-1,0) + (0,1,0)) = 0.
+  // n_p turned: e . ((0,-1,0) + (0,1,0)) = 0.
   EXPECT_NEAR(SymmetricRotated::From(Pair()).Residual(T)[0], 0, 1e-15);
   // The sum (0, 1, 1) turned by an eighth points along z: e . (0, 0, sqrt 2).
   EXPECT_NEAR(SymmetricSplit::From(Pair()).Residual(T)[0], std::sqrt(2.0), 1e-14);

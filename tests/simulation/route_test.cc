@@ -11,7 +11,7 @@
 namespace icpscape {
 namespace {
 
-// Everything about a car that can be told from where its lidar was, ten times a second.
+// What the poses of the lidar, ten per second, say about the car.
 TEST(TownRoute, IsDrivenAsACarDrives) {
   const std::vector<SE3d> poses = TownRoute();
   const SE3d T_lidar_axle(Mat3::Identity(), Vec3(-kSensorAheadOfRearAxle_m, 0, -kLidarHeightM));

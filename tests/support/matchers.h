@@ -48,7 +48,8 @@ inline Correspondence PairByHand(const Matcher& matcher, const Matches& matches,
 }
 
 /// Pairs source point i with target point i at every pose, or with nothing where `unmatched` says
-/// so, and all of them with one line or patch: what a metric makes of a pair can be told by hand.
+/// so, and all of them with one line or patch: what a metric makes of a pair can be computed by
+/// hand.
 class FixedMatcher final : public Matcher {
  public:
   FixedMatcher(const PointCloud& source, const PointCloud& target,

@@ -12,8 +12,8 @@
 
 namespace icpscape {
 
-/// Folder of KITTI odometry data: $ICPSCAPE_KITTI_ROOT, or ../shared/data/kitti beside the
-/// checkout. The data are no part of the project.
+/// Folder of KITTI odometry data, which are no part of the project: the environment variable
+/// ICPSCAPE_KITTI_ROOT, or a folder beside the checkout.
 inline std::filesystem::path KittiRoot() {
   const char* root = std::getenv("ICPSCAPE_KITTI_ROOT");
   return root != nullptr ? std::filesystem::path(root)
@@ -27,7 +27,7 @@ inline PointCloud KittiScan(const std::string& sequence, int frame) {
 
 }  // namespace icpscape
 
-/// First line of a test on real scans.
+/// The first line of every test on real scans.
 #define ICPSCAPE_SKIP_WITHOUT_KITTI()                        \
   if (!std::filesystem::is_directory(icpscape::KittiRoot())) \
   GTEST_SKIP() << "no KITTI data: set ICPSCAPE_KITTI_ROOT to a folder with sequences/ and poses/"
