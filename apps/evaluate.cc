@@ -12,6 +12,7 @@
 #include "src/common/error.h"
 #include "src/common/text.h"
 #include "src/io/kitti.h"
+#include "src/io/trajectory.h"
 
 namespace icpscape {
 namespace {

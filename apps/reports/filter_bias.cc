@@ -4,9 +4,9 @@
 #include <cmath>
 #include <cstdio>
 
+#include "src/cloud/label.h"
 #include "src/filtering/filter_statistics.h"
 #include "src/filtering/octree_correspondence_filter.h"
-#include "src/simulation/surface.h"
 
 namespace icpscape {
 

@@ -10,6 +10,7 @@
 #include "src/io/kitti.h"
 #include "src/io/output.h"
 #include "src/io/point_files.h"
+#include "src/io/trajectory.h"
 
 namespace icpscape {
 namespace {

@@ -5,8 +5,8 @@
 #include <optional>
 #include <vector>
 
+#include "src/cloud/trajectory.h"
 #include "src/common/names.h"
-#include "src/io/trajectory.h"
 
 namespace icpscape {
 

@@ -5,8 +5,8 @@
 #include <functional>
 #include <set>
 
+#include "src/cloud/label.h"
 #include "src/common/text.h"
-#include "src/simulation/surface.h"
 
 namespace icpscape {
 namespace {

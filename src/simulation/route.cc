@@ -4,9 +4,9 @@
 #include <algorithm>
 #include <cmath>
 
+#include "src/cloud/scan_sequence.h"
 #include "src/common/vehicle.h"
 #include "src/simulation/lidar.h"
-#include "src/simulation/scenes.h"
 
 namespace icpscape {
 namespace {

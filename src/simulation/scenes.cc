@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "src/cloud/scan_sequence.h"
 #include "src/common/error.h"
 #include "src/common/text.h"
 #include "src/simulation/highway.h"

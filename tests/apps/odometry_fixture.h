@@ -13,7 +13,7 @@
 #include <vector>
 
 #include "src/io/transform.h"
-#include "src/odometry/frame_record.h"
+#include "src/resumable/frame_record.h"
 #include "tests/support/drives.h"
 #include "tests/support/run_program.h"
 #include "tests/support/temporary_folder.h"

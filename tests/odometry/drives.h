@@ -7,8 +7,8 @@
 #include <vector>
 
 #include "src/objective/loss.h"
-#include "src/odometry/frame_record.h"
 #include "src/odometry/odometry.h"
+#include "src/resumable/frame_record.h"
 #include "tests/support/drives.h"
 
 namespace icpscape::testing_support {

@@ -8,6 +8,7 @@
 #include <random>
 
 #include "src/common/error.h"
+#include "src/io/trajectory.h"
 #include "tests/support/real_scans.h"
 
 namespace icpscape {

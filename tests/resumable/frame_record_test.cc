@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "src/odometry/frame_record.h"
+#include "src/resumable/frame_record.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "src/simulation/dataset.h"
+#include "src/io/dataset.h"
 
 #include <gmock/gmock.h>
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#ifndef ICPSCAPE_SRC_COVARIANCE_MONTE_CARLO_H_
-#define ICPSCAPE_SRC_COVARIANCE_MONTE_CARLO_H_
+#ifndef ICPSCAPE_SRC_MONTE_CARLO_MONTE_CARLO_H_
+#define ICPSCAPE_SRC_MONTE_CARLO_MONTE_CARLO_H_
 
 #include <array>
 #include <cstdint>
@@ -86,4 +86,4 @@ Calibration Calibrate(const std::vector<DrawResult>& draws);
 
 }  // namespace icpscape
 
-#endif  // ICPSCAPE_SRC_COVARIANCE_MONTE_CARLO_H_
+#endif  // ICPSCAPE_SRC_MONTE_CARLO_MONTE_CARLO_H_

@@ -1,10 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "src/covariance/monte_carlo.h"
+#include "src/monte_carlo/monte_carlo.h"
 
 #include <algorithm>
 #include <mutex>
 #include <utility>
 
+#include "src/cloud/scan_sequence.h"
 #include "src/common/error.h"
 #include "src/common/parallel.h"
 #include "src/simulation/scenes.h"

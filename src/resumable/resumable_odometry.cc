@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "src/odometry/resumable.h"
+#include "src/resumable/resumable_odometry.h"
 
 #include <chrono>
 #include <utility>

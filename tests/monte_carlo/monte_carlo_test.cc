@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "src/covariance/monte_carlo.h"
+#include "src/monte_carlo/monte_carlo.h"
 
 #include <gtest/gtest.h>
 
