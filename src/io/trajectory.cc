@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "src/io/trajectory.h"
 
-#include <glog/logging.h>
-
 #include <array>
 #include <cmath>
 #include <fstream>
@@ -133,7 +131,11 @@ void WriteKittiTrajectory(const std::filesystem::path& path,
 }
 
 void WriteTumTrajectory(const std::filesystem::path& path, const Trajectory& trajectory) {
-  CHECK_EQ(trajectory.times_s.size(), trajectory.T_world_body.size());
+  if (trajectory.times_s.size() != trajectory.T_world_body.size()) {
+    throw UsageError(path.string() + ": " + std::to_string(trajectory.times_s.size()) +
+                     " times for " + std::to_string(trajectory.T_world_body.size()) +
+                     " poses; expected one for each, as the format of TUM asks.");
+  }
   std::string text = "# timestamp tx ty tz qx qy qz qw\n";
   for (std::size_t i = 0; i < trajectory.times_s.size(); ++i) {
     const Vec3& t = trajectory.T_world_body[i].t();

@@ -21,7 +21,7 @@ Trajectory ReadTrajectory(const std::filesystem::path& path);
 /// (they are normalised on reading). Throws InputError where the file cannot be written.
 void WriteKittiTrajectory(const std::filesystem::path& path, const std::vector<SE3d>& T_world_body);
 
-/// TUM's format, as above. The trajectory must have times (CHECKed).
+/// TUM's format, as above. Throws UsageError where the trajectory has no times.
 void WriteTumTrajectory(const std::filesystem::path& path, const Trajectory& trajectory);
 
 }  // namespace icpscape

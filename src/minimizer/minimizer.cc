@@ -13,6 +13,7 @@
 #include <utility>
 
 #include "residuals/adapters/ceres.h"
+#include "src/common/error.h"
 #include "src/common/parallel.h"
 #include "src/minimizer/loop.h"
 
@@ -227,7 +228,9 @@ MinimizerSummary MinimizeEveryEvaluation(Parameters x, Loop loop) {
 
 MinimizerSummary Minimize(const JointObjective& objective, const SE3d& T_start,
                           const MinimizerOptions& options) {
-  CHECK(options.free != DofMask{}) << "no direction is free";
+  if (options.free == DofMask{}) {
+    throw UsageError("No direction is free; expected at least one.");
+  }
   const Parameters x = ToParameters(T_start);
   Loop loop(objective, options);
   return options.reassociation == Reassociation::kEveryStep

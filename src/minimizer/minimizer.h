@@ -65,7 +65,7 @@ struct MinimizerOptions {
   double min_cost_change = 0;
   /// Ends where the cost is this or less [the paper's "falls below threshold", sec. 2].
   double max_final_cost = 0;
-  /// Directions in which the source may move; at least one (CHECKed).
+  /// Directions in which the source may move; at least one.
   DofMask free = kAllDof;
   Observer observer = nullptr;
   int threads = 1;

@@ -25,7 +25,7 @@ namespace icpscape {
 /// for any number of threads, and safe from several threads at once.
 class Objective {
  public:
-  /// The matcher must provide what the metric needs, and the clouds the normals (CHECKed). Without
+  /// Throws UsageError where the matcher or the clouds lack what the metric needs. Without
   /// a loss, a metric whose printed form is one (planar_to_patch: SoftLOneLoss(1)) keeps that. Runs
   /// at the SIMD level that is active now.
   Objective(const RegisteredMetric& metric, const Matcher& matcher,
@@ -42,7 +42,7 @@ class Objective {
   Matches Match(const SE3d& T_target_source, int threads) const;
 
   /// Frozen: the sums over these matches at this pose. Pairs without a valid normal, where the
-  /// metric needs one, are left out.
+  /// metric needs one, are left out. Throws UsageError for matches of another source.
   Evaluation Evaluate(const SE3d& T_target_source, const Matches& matches, int threads) const;
 
   /// Re-associated: matched at this pose and summed. See pass.h for several objectives at once.

@@ -35,7 +35,7 @@ class ObjectiveSet {
                const ObjectiveSetOptions& options);
 
   /// The same with clouds for each kind of metric: LOAM keeps maps of edges and of planar points
-  /// apart. A metric whose clouds are missing is CHECKed.
+  /// apart. Throws UsageError where a metric's clouds are missing.
   ObjectiveSet(const MetricClouds& source, const MetricClouds& target,
                const std::vector<std::string>& metrics, const ObjectiveSetOptions& options);
 

@@ -8,6 +8,7 @@
 #include <random>
 
 #include "src/common/error.h"
+#include "tests/support/message_of.h"
 
 namespace icpscape {
 namespace {
@@ -45,6 +46,20 @@ TEST(Consistency, NeesByHand) {
   EXPECT_NEAR(NeesAboutTruth(errors, four).Overconfidence(), std::sqrt(sum / 12 / 6) / 2, 1e-12);
   const Vec6 ratio = DeviationRatio(StatisticsOf(errors), four);
   EXPECT_NEAR(ratio[2], 2 / (3 * std::sqrt(2.0 / 11)), 1e-12);
+}
+
+TEST(Consistency, RefusesWhatIsNoCovariance) {
+  const auto message = [](const std::vector<Mat6>& covariances) {
+    return testing_support::MessageOf<UsageError>([&] {
+      NeesAboutTruth({Vec6::Ones(), Vec6::Ones()}, covariances);
+    });
+  };
+  Mat6 flat = Mat6::Identity();
+  flat(3, 3) = 0;
+  EXPECT_EQ(message({Mat6::Identity()}),
+            "2 errors and 1 covariances; expected as many of both, at least one.");
+  EXPECT_EQ(message({Mat6::Identity(), flat}),
+            "Covariance 1 is not positive definite; expected all of them to be.");
 }
 
 // Tables of the chi-square distribution: 60 degrees of freedom, 2.5 and 97.5 %.

@@ -50,8 +50,8 @@ TARGETS = {
     "residuals": ([], ["Eigen"]),
     "adapters": (["residuals"], ["Eigen", "ceres"]),
     "core": (["residuals", "adapters"], ["Eigen", "ceres", "glog", "oneapi", "boost"]),
-    "io": (["residuals", "core"], ["Eigen", "glog", "nlohmann", "openssl", "pcl"]),
-    "simulation": (["residuals", "core"], ["Eigen", "glog", "oneapi", "embree3"]),
+    "io": (["residuals", "core"], ["Eigen", "nlohmann", "openssl", "pcl"]),
+    "simulation": (["residuals", "core"], ["Eigen", "oneapi", "embree3"]),
 }
 SYSTEM = ["sys"]  # Headers in folders that are of no library.
 ONE_FILE = {"pcl": "src/io/point_files.cc"}  # All that may know the library.

@@ -14,6 +14,7 @@
 #include "src/matching/closest_point_matcher.h"
 #include "src/objective/loss.h"
 #include "tests/support/matchers.h"
+#include "tests/support/message_of.h"
 #include "tests/support/named.h"
 #include "tests/support/real_scans.h"
 #include "tests/support/scenes.h"
@@ -144,7 +145,9 @@ TEST_P(BothModes, NeedsAFreeDirection) {
   const ClosestPointMatcher matcher(Room().source, Room().target);
   MinimizerOptions options = Options();
   options.free = {};
-  EXPECT_DEATH(Minimize(Objective("point_to_plane", matcher), SE3d(), options), "free");
+  const Objective objective("point_to_plane", matcher);
+  EXPECT_EQ(testing_support::MessageOf<UsageError>([&] { Minimize(objective, SE3d(), options); }),
+            "No direction is free; expected at least one.");
 }
 
 TEST_P(BothModes, ShowsEveryIterateToTheObserver) {

@@ -172,17 +172,19 @@ TEST(ObjectiveSet, MatchesNothingInAnEmptyTarget) {
   }
 }
 
-TEST(ObjectiveSet, ChecksThatTheCloudsAreThere) {
+TEST(ObjectiveSet, RefusesMetricsWhoseCloudsAreMissing) {
   const testing_support::MovedRoom& room = TheScene().room;
   const SearchableCloud all(room.source);
   const MetricClouds points{all, {}, {}};
-  EXPECT_DEATH(ObjectiveSet(points, points, {"edge_to_line"}, Lenient()),
-               "edge_to_line needs clouds of edges");
-  EXPECT_DEATH(ObjectiveSet(points, points, {"planar_to_patch"}, Lenient()),
-               "planar_to_patch needs clouds of planar points");
   const MetricClouds edges{{}, all, {}};
-  EXPECT_DEATH(ObjectiveSet(edges, edges, {"symmetric"}, Lenient()),
-               "symmetric needs clouds of points");
+  const auto message = [](const MetricClouds& clouds, const char* metric) {
+    return testing_support::MessageOf<UsageError>(
+        [&] { ObjectiveSet(clouds, clouds, {metric}, Lenient()); });
+  };
+  EXPECT_THAT(message(points, "edge_to_line"), ::testing::HasSubstr("needs clouds of edges;"));
+  EXPECT_THAT(message(points, "planar_to_patch"),
+              ::testing::HasSubstr("needs clouds of planar points;"));
+  EXPECT_THAT(message(edges, "symmetric"), ::testing::HasSubstr("needs clouds of points;"));
 }
 
 }  // namespace

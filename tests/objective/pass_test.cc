@@ -13,6 +13,7 @@
 #include "src/objective/loss.h"
 #include "src/objective/objective_set.h"
 #include "tests/support/matchers.h"
+#include "tests/support/message_of.h"
 #include "tests/support/scenes.h"
 #include "tests/support/simd_levels.h"
 
@@ -191,6 +192,14 @@ TEST(Pass, KeptMatchesAreThoseOfThePose) {
     ExpectSameBits(associated[m], frozen[m]);
   }
   EXPECT_EQ(associated.back().n(), 3001);  // Of 6001, rounded.
+}
+
+TEST(Pass, RefusesFrozenMatchesThatLackAMatcher) {
+  const AllObjectives all;
+  EXPECT_EQ(testing_support::MessageOf<UsageError>([&] {
+              EvaluateAll(all.pointers, kPose, MatchesByMatcher(), Derivatives::kHessian, 1);
+            }),
+            "A matcher has no matches; expected those of each.");
 }
 
 TEST(Pass, IsTheSameBitsForAnyThreadsAndEverySimdLevel) {

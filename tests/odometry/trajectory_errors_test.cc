@@ -9,6 +9,7 @@
 
 #include "src/common/error.h"
 #include "src/io/trajectory.h"
+#include "tests/support/message_of.h"
 #include "tests/support/real_scans.h"
 
 namespace icpscape {
@@ -311,6 +312,8 @@ TEST(RelativeErrors, ByHand) {
   EXPECT_NEAR(two.translation_m[0], std::hypot(x - 2, y), 1e-12);
   EXPECT_NEAR(two.rotation_rad[2], 2 * kDegree, 1e-12);
   EXPECT_TRUE(RelativeErrors(pair, 5).translation_m.empty());
+  EXPECT_EQ(testing_support::MessageOf<UsageError>([&] { RelativeErrors(pair, 0); }),
+            "Relative errors over 0 frames; expected at least 1.");
 }
 
 TEST(Statistics, ByHand) {
@@ -320,6 +323,8 @@ TEST(Statistics, ByHand) {
   EXPECT_DOUBLE_EQ(odd.median, 2);
   EXPECT_DOUBLE_EQ(odd.max, 3);
   EXPECT_DOUBLE_EQ(Summarize({4, 1, 2, 10}).median, 3);
+  EXPECT_EQ(testing_support::MessageOf<UsageError>([] { Summarize({}); }),
+            "Statistics of no values; expected at least one.");
 }
 
 Trajectory AtTimes(const std::vector<double>& times_s) {
