@@ -97,7 +97,7 @@ FrameRecord ParseFrameRecord(const std::string& text, const std::string& place) 
   record.result.T_world_lidar = pose();
   record.result.motion = pose();
   if (!good || next != words.size()) {
-    throw InputError(place + ": no record of a scan; expected a journal of icpscape-odometry.");
+    throw InputError(place + ": no record of a scan; expected a journal of an odometry.");
   }
   return record;
 }

@@ -6,7 +6,7 @@
 
 A file includes files of its own folder, or of folders below. The folders of a target, which are
 those of src/, include folders and libraries that the target may use alone. Each folder of src/
-belongs to one target.
+belongs to one target. No text or comment of src/ and residuals/ names a flag: flags belong to apps/.
 """
 import os.path
 import pathlib
@@ -59,6 +59,8 @@ ONE_FILE = {"pcl": "src/io/point_files.cc"}  # All that may know the library.
 # Folders whose files must stand in a layer.
 TREES = ["tests", "examples", "apps", "src", "residuals"]
 OWN = [*TREES, "icpscape"]  # How the names of our own headers begin.
+# --flag in a string or a comment; outside of them it is a decrement.
+FLAG = re.compile(r'"(?:[^"\\]|\\.)*?(--[a-z]\w*)(?:[^"\\]|\\.)*"|//.*?(--[a-z]\w*)')
 INCLUDE = re.compile(r'^\s*#\s*include\s+(["<])([^">]+)[">]')
 
 
@@ -120,6 +122,10 @@ def check(root, folders):
             errors.append(f"{file}: its folder is in no layer; expected a line in {__file__}")
             continue
         for number, line in enumerate((root / file).read_text().splitlines(), 1):
+            flag = FLAG.search(line) if file.parts[0] in ("src", "residuals") else None
+            if flag:
+                errors.append(f"{file}:{number}: names the flag {flag[1] or flag[2]}; expected the "
+                              "quantity, which every caller knows")
             match = INCLUDE.match(line)
             if not match:
                 continue

@@ -52,6 +52,13 @@ class CheckLayers(unittest.TestCase):
     def test_pcl_in_one_file(self):
         self.assert_one({"src/io/d.cc": "#include <pcl/io/pcd_io.h>"}, "which only src/io/point_fi")
 
+    def test_flags(self):
+        self.assert_one({"src/cloud/c.cc": 'throw E("expected --voxel_m above 0.");\nint i = --n;'},
+                        "src/cloud/c.cc:1: names the flag --voxel_m;")
+        self.assert_one({"src/cloud/c.h": "int voxel;  // From --voxel_m."}, "the flag --voxel_m;")
+        self.assertEqual(self.errors({"src/cloud/c.cc": '"|---|"; --n;  // A -- b.',
+                                      "apps/flags/f.cc": 'F("expected --voxel_m.");'}), [])
+
     def test_a_folder_without_a_target(self):
         errors = self.errors({}, {"common": "core"})
         self.assertEqual(errors, ["src/cloud: is in no target; expected it in src/CMakeLists.txt"])

@@ -105,7 +105,7 @@ TEST(FrameRecord, RefusesGarbage) {
   ASSERT_EQ(words.size(), 1U + 10U + 12U + 12U);
   const auto refused = [](const std::string& text) {
     return MessageOf([&] { ParseFrameRecord(text, "the place"); }) ==
-           "the place: no record of a scan; expected a journal of icpscape-odometry.";
+           "the place: no record of a scan; expected a journal of an odometry.";
   };
   EXPECT_TRUE(refused(""));
   EXPECT_TRUE(refused("garbage"));
