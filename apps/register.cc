@@ -65,7 +65,7 @@ void Register() {
     check = ReportGroundTruthCheck(pair, scans, FLAGS_starts > 0, ThreadsFromFlags(), manifest);
   }
   const ObjectiveSet set(FilterFromFlags(scans, pair, manifest), metrics, ObjectiveSetFromFlags());
-  const JointObjective objective = JointFromFlags(set.objectives());
+  const JointObjective objective(set.objectives(), WeightsFromFlags());
   const MinimizerSummary summary = Minimize(objective, T_initial, options);
   manifest->AddTiming("register");
   if (!summary.Usable()) {

@@ -33,6 +33,11 @@ class Objective {
   /// By name. Throws UsageError for an unknown metric (the message lists the known ones).
   Objective(const std::string& metric, const Matcher& matcher,
             std::shared_ptr<const ceres::LossFunction> loss = nullptr);
+  /// The matcher would die at once.
+  Objective(const RegisteredMetric& metric, const Matcher&& matcher,
+            std::shared_ptr<const ceres::LossFunction> loss = nullptr) = delete;
+  Objective(const std::string& metric, const Matcher&& matcher,
+            std::shared_ptr<const ceres::LossFunction> loss = nullptr) = delete;
 
   const RegisteredMetric& metric() const { return *metric_; }
   const Matcher& matcher() const { return *matcher_; }

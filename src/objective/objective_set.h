@@ -39,7 +39,9 @@ class ObjectiveSet {
   ObjectiveSet(const MetricClouds& source, const MetricClouds& target,
                const std::vector<std::string>& metrics, const ObjectiveSetOptions& options);
 
-  const std::vector<Objective>& objectives() const { return objectives_; }
+  /// Their matchers live as long as the set does.
+  const std::vector<Objective>& objectives() const& { return objectives_; }
+  const std::vector<Objective>& objectives() && = delete;
 
  private:
   const Matcher& MatcherFor(const RegisteredMetric& metric, const MetricClouds& source,

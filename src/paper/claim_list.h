@@ -16,6 +16,7 @@ namespace icpscape {
 class FigureView {
  public:
   FigureView(const ClaimInputs& inputs, const std::string& figure);
+  FigureView(const ClaimInputs&& inputs, const std::string& figure) = delete;
 
   bool Drawn() const;
   const Curve& Of(const std::string& metric, Variant variant) const;

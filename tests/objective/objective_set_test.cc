@@ -131,10 +131,8 @@ TEST(ObjectiveSet, GivesEachKindOfMetricItsOwnClouds) {
   Features everything{std::vector<char>(room.source.size(), 1),
                       std::vector<char>(room.source.size(), 1)};
   const auto alone = [&](const PointCloud& target, const char* metric) {
-    return ObjectiveSet(AsPrepared(room.source, target, everything), {metric}, Lenient())
-        .objectives()[0]
-        .Evaluate(kMotion, 1)
-        .sums.cost;
+    const ObjectiveSet one(AsPrepared(room.source, target, everything), {metric}, Lenient());
+    return one.objectives()[0].Evaluate(kMotion, 1).sums.cost;
   };
   const auto cost = [&](std::size_t i) {
     return set.objectives()[i].Evaluate(kMotion, 1).sums.cost;
