@@ -23,6 +23,7 @@ apps/reports
 apps/run
 src/monte_carlo
 src/resumable
+src/api
 src/explain
 src/odometry
 src/covariance
