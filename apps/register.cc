@@ -16,8 +16,8 @@
 #include "apps/run/app.h"
 #include "apps/run/progress.h"
 #include "apps/run/run.h"
-#include "src/common/error.h"
-#include "src/io/point_files.h"
+#include "icpscape/common/error.h"
+#include "icpscape/io/point_files.h"
 
 DEFINE_int32(starts, 0, "Random starts about the reference, to measure the success rate.");
 static const icpscape::FlagMark starts_mark(&FLAGS_starts, icpscape::kAside);

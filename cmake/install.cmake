@@ -7,6 +7,15 @@ foreach(component residuals ${ICPSCAPE_COMPONENTS})
   install(TARGETS icpscape_${component} EXPORT icpscape_${component}_targets)
   install(EXPORT icpscape_${component}_targets NAMESPACE icpscape:: DESTINATION ${package_dir})
 endforeach()
+foreach(component ${ICPSCAPE_COMPONENTS})
+  get_target_property(folders icpscape_${component} FOLDERS)
+  list(TRANSFORM folders PREPEND src/)
+  install(DIRECTORY ${folders} DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/icpscape
+          FILES_MATCHING PATTERN "*.h")
+endforeach()
+# The test suite of the residuals is for metrics of other projects as well.
+install(DIRECTORY residuals tests/testing DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/icpscape
+        FILES_MATCHING PATTERN "*.h")
 configure_package_config_file(
   cmake/icpscape-config.cmake.in ${PROJECT_BINARY_DIR}/icpscape-config.cmake
   INSTALL_DESTINATION ${package_dir})
@@ -15,7 +24,4 @@ write_basic_package_version_file(${PROJECT_BINARY_DIR}/icpscape-config-version.c
 install(FILES ${PROJECT_BINARY_DIR}/icpscape-config.cmake
               ${PROJECT_BINARY_DIR}/icpscape-config-version.cmake
         DESTINATION ${package_dir})
-install(DIRECTORY residuals src DESTINATION include/icpscape FILES_MATCHING PATTERN "*.h")
-install(DIRECTORY tests/support DESTINATION include/icpscape/tests FILES_MATCHING
-        PATTERN "residual_*.h")
 install(DIRECTORY tools DESTINATION share/icpscape FILES_MATCHING PATTERN "plot_*.py")

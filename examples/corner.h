@@ -4,7 +4,7 @@
 
 #include <random>
 
-#include "src/cloud/point_cloud.h"
+#include <icpscape/cloud/point_cloud.h>
 
 /// Two scans of a corner of three walls, and the motion between them, as a lidar of your own would
 /// give them: fill x, y and z, in metres, with the sensor at the origin.

@@ -2,8 +2,8 @@
 // Registers two clouds and says how sure the result is, by direction.
 #include <cstdio>
 
+#include <icpscape/api/covariance.h>
 #include "corner.h"
-#include "src/api/covariance.h"
 
 int main() {
   using namespace icpscape;
@@ -22,8 +22,7 @@ int main() {
     }
     const Vec6 deviation = estimate.covariance->diagonal().cwiseSqrt();
     std::printf("%s: %.3g %.3g %.3g rad, %.3g %.3g %.3g m\n", NameOf(estimate.estimator),
-                deviation[0], deviation[1], deviation[2], deviation[3], deviation[4],
-                deviation[5]);
+                deviation[0], deviation[1], deviation[2], deviation[3], deviation[4], deviation[5]);
   }
 
   // The direction that the pairs determine worst, in [L omega; v].

@@ -4,8 +4,8 @@
 #include <cmath>
 #include <cstdio>
 
+#include <icpscape/api/landscape.h>
 #include "corner.h"
-#include "src/api/landscape.h"
 
 int main() {
   using namespace icpscape;

@@ -2,8 +2,8 @@
 // Registers two clouds of your own.
 #include <cstdio>
 
+#include <icpscape/api/register.h>
 #include "corner.h"
-#include "src/api/register.h"
 
 int main() {
   using namespace icpscape;

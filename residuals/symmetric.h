@@ -2,7 +2,7 @@
 #ifndef ICPSCAPE_RESIDUALS_SYMMETRIC_H_
 #define ICPSCAPE_RESIDUALS_SYMMETRIC_H_
 
-#include "residuals/correspondence.h"
+#include "correspondence.h"
 
 // Four metrics go by the name "symmetric"; they differ in what turns with T. With
 // e = R p_s + t - q_t and both normals oriented alike (towards the sensor):

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "src/api/covariance.h"
+#include "icpscape/api/covariance.h"
 
 #include <utility>
 

@@ -6,8 +6,8 @@
 #include <string>
 #include <vector>
 
-#include "src/api/pair.h"
-#include "src/covariance/registration_uncertainty.h"
+#include "icpscape/api/pair.h"
+#include "icpscape/covariance/registration_uncertainty.h"
 
 namespace icpscape {
 

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "src/api/landscape.h"
+#include "icpscape/api/landscape.h"
 
 #include <utility>
 
-#include "src/common/error.h"
+#include "icpscape/common/error.h"
 
 namespace icpscape {
 

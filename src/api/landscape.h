@@ -4,8 +4,8 @@
 
 #include <vector>
 
-#include "src/api/pair.h"
-#include "src/landscape/curve.h"
+#include "icpscape/api/pair.h"
+#include "icpscape/landscape/curve.h"
 
 namespace icpscape {
 

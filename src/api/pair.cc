@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "src/api/pair.h"
+#include "icpscape/api/pair.h"
 
 #include <algorithm>
 #include <cmath>
 #include <utility>
 
-#include "src/common/error.h"
-#include "src/common/text.h"
+#include "icpscape/common/error.h"
+#include "icpscape/common/text.h"
 
 namespace icpscape {
 namespace {

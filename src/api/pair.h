@@ -5,8 +5,8 @@
 #include <string>
 #include <vector>
 
-#include "src/objective/objective_set.h"
-#include "src/preparation/prepared_scan.h"
+#include "icpscape/objective/objective_set.h"
+#include "icpscape/preparation/prepared_scan.h"
 
 namespace icpscape {
 

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "src/api/register.h"
+#include "icpscape/api/register.h"
 
 #include <cmath>
 #include <utility>
 
-#include "src/objective/joint_objective.h"
+#include "icpscape/objective/joint_objective.h"
 
 namespace icpscape {
 

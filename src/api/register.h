@@ -5,8 +5,8 @@
 #include <string>
 #include <vector>
 
-#include "src/api/pair.h"
-#include "src/minimizer/minimizer.h"
+#include "icpscape/api/pair.h"
+#include "icpscape/minimizer/minimizer.h"
 
 namespace icpscape {
 

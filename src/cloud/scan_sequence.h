@@ -8,7 +8,7 @@
 #include <string>
 #include <vector>
 
-#include "src/cloud/scan_pair.h"
+#include "icpscape/cloud/scan_pair.h"
 
 namespace icpscape {
 

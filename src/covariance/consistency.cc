@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "src/covariance/consistency.h"
+#include "icpscape/covariance/consistency.h"
 
 #include <Eigen/Cholesky>
 #include <boost/math/distributions/chi_squared.hpp>
 #include <cmath>
 
-#include "src/common/error.h"
+#include "icpscape/common/error.h"
 
 namespace icpscape {
 namespace {

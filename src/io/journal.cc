@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "src/io/journal.h"
+#include "icpscape/io/journal.h"
 
 #include <fcntl.h>
 #include <sys/file.h>
@@ -9,8 +9,8 @@
 #include <iterator>
 #include <utility>
 
-#include "src/common/error.h"
-#include "src/io/sha256.h"
+#include "icpscape/common/error.h"
+#include "icpscape/io/sha256.h"
 
 namespace icpscape {
 namespace {

@@ -1,14 +1,14 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "src/io/kitti_writer.h"
+#include "icpscape/io/kitti_writer.h"
 
 #include <cstdint>
 #include <fstream>
 
-#include "src/common/error.h"
-#include "src/io/kitti.h"
-#include "src/io/output.h"
-#include "src/io/trajectory.h"
-#include "src/io/transform.h"
+#include "icpscape/common/error.h"
+#include "icpscape/io/kitti.h"
+#include "icpscape/io/output.h"
+#include "icpscape/io/trajectory.h"
+#include "icpscape/io/transform.h"
 
 namespace icpscape {
 namespace {

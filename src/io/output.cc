@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "src/io/output.h"
+#include "icpscape/io/output.h"
 
 #include <unistd.h>
 
 #include <fstream>
 #include <system_error>
 
-#include "src/common/error.h"
-#include "src/common/text.h"
+#include "icpscape/common/error.h"
+#include "icpscape/common/text.h"
 
 namespace icpscape {
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "src/io/sequences.h"
+#include "icpscape/io/sequences.h"
 
 #include <algorithm>
 #include <cmath>
@@ -9,10 +9,10 @@
 #include <numeric>
 #include <set>
 
-#include "src/common/error.h"
-#include "src/common/text.h"
-#include "src/io/kitti.h"
-#include "src/io/point_files.h"
+#include "icpscape/common/error.h"
+#include "icpscape/common/text.h"
+#include "icpscape/io/kitti.h"
+#include "icpscape/io/point_files.h"
 
 namespace icpscape {
 namespace {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "src/io/trajectory.h"
+#include "icpscape/io/trajectory.h"
 
 #include <array>
 #include <cmath>
@@ -8,11 +8,11 @@
 #include <sstream>
 #include <string>
 
-#include "src/common/error.h"
-#include "src/common/text.h"
-#include "src/io/kitti.h"
-#include "src/io/output.h"
-#include "src/io/transform.h"
+#include "icpscape/common/error.h"
+#include "icpscape/common/text.h"
+#include "icpscape/io/kitti.h"
+#include "icpscape/io/output.h"
+#include "icpscape/io/transform.h"
 
 namespace icpscape {
 namespace {

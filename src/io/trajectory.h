@@ -5,7 +5,7 @@
 #include <filesystem>
 #include <vector>
 
-#include "src/cloud/trajectory.h"
+#include "icpscape/cloud/trajectory.h"
 
 namespace icpscape {
 

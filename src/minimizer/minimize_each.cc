@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "src/minimizer/minimize_each.h"
+#include "icpscape/minimizer/minimize_each.h"
 
 namespace icpscape {
 

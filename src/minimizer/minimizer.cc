@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "src/minimizer/minimizer.h"
+#include "icpscape/minimizer/minimizer.h"
 
 #include <ceres/iteration_callback.h>
 #include <ceres/problem.h>
@@ -12,10 +12,10 @@
 #include <limits>
 #include <utility>
 
-#include "residuals/adapters/ceres.h"
-#include "src/common/error.h"
-#include "src/common/parallel.h"
-#include "src/minimizer/loop.h"
+#include "icpscape/common/error.h"
+#include "icpscape/common/parallel.h"
+#include "icpscape/minimizer/loop.h"
+#include "icpscape/residuals/adapters/ceres.h"
 
 namespace icpscape {
 namespace {

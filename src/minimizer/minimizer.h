@@ -6,9 +6,9 @@
 #include <string>
 #include <vector>
 
-#include "residuals/dof_mask.h"
-#include "src/common/names.h"
-#include "src/objective/joint_objective.h"
+#include "icpscape/common/names.h"
+#include "icpscape/objective/joint_objective.h"
+#include "icpscape/residuals/dof_mask.h"
 
 namespace icpscape {
 

@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "src/objective/joint_objective.h"
+#include "icpscape/objective/joint_objective.h"
 
 #include <ceres/loss_function.h>
 #include <algorithm>
 #include <utility>
 
-#include "src/common/error.h"
-#include "src/common/text.h"
+#include "icpscape/common/error.h"
+#include "icpscape/common/text.h"
 
 namespace icpscape {
 

@@ -7,7 +7,7 @@
 #include <utility>
 #include <vector>
 
-#include "src/objective/pass.h"
+#include "icpscape/objective/pass.h"
 
 namespace icpscape {
 

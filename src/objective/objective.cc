@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "src/objective/objective.h"
+#include "icpscape/objective/objective.h"
 
 #include <ceres/loss_function.h>
 #include <ceres/problem.h>
@@ -7,9 +7,9 @@
 #include <cmath>
 #include <utility>
 
-#include "src/common/error.h"
-#include "src/objective/pass.h"
-#include "src/simd/level.h"
+#include "icpscape/common/error.h"
+#include "icpscape/objective/pass.h"
+#include "icpscape/simd/level.h"
 
 namespace icpscape {
 namespace {

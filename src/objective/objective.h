@@ -5,10 +5,10 @@
 #include <memory>
 #include <string>
 
-#include "src/matching/matcher.h"
-#include "src/objective/evaluation.h"
-#include "src/objective/pair_block.h"
-#include "src/objective/registered_metric.h"
+#include "icpscape/matching/matcher.h"
+#include "icpscape/objective/evaluation.h"
+#include "icpscape/objective/pair_block.h"
+#include "icpscape/objective/registered_metric.h"
 
 namespace ceres {
 class LossFunction;

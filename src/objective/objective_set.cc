@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "src/objective/objective_set.h"
+#include "icpscape/objective/objective_set.h"
 
-#include "src/common/error.h"
+#include "icpscape/common/error.h"
 
 namespace icpscape {
 

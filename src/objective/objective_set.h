@@ -7,9 +7,9 @@
 #include <string>
 #include <vector>
 
-#include "src/matching/matcher_kinds.h"
-#include "src/objective/objective.h"
-#include "src/preparation/prepared_pair.h"
+#include "icpscape/matching/matcher_kinds.h"
+#include "icpscape/objective/objective.h"
+#include "icpscape/preparation/prepared_pair.h"
 
 namespace icpscape {
 

@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "src/objective/pass.h"
+#include "icpscape/objective/pass.h"
 
 #include <algorithm>
 #include <string>
 
-#include "src/common/error.h"
-#include "src/common/parallel.h"
+#include "icpscape/common/error.h"
+#include "icpscape/common/parallel.h"
 
 namespace icpscape {
 namespace {

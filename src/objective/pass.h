@@ -5,7 +5,7 @@
 #include <map>
 #include <vector>
 
-#include "src/objective/objective.h"
+#include "icpscape/objective/objective.h"
 
 namespace icpscape {
 

@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "src/odometry/odometry.h"
+#include "icpscape/odometry/odometry.h"
 
 #include <glog/logging.h>
 
 #include <algorithm>
 #include <utility>
 
-#include "src/common/error.h"
-#include "src/common/text.h"
+#include "icpscape/common/error.h"
+#include "icpscape/common/text.h"
 
 namespace icpscape {
 namespace {

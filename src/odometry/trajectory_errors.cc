@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "src/odometry/trajectory_errors.h"
+#include "icpscape/odometry/trajectory_errors.h"
 
 #include <Eigen/Geometry>
 #include <Eigen/SVD>
@@ -7,8 +7,8 @@
 #include <cmath>
 #include <numeric>
 
-#include "src/common/error.h"
-#include "src/common/text.h"
+#include "icpscape/common/error.h"
+#include "icpscape/common/text.h"
 
 namespace icpscape {
 namespace {

@@ -5,8 +5,8 @@
 #include <optional>
 #include <vector>
 
-#include "src/cloud/trajectory.h"
-#include "src/common/names.h"
+#include "icpscape/cloud/trajectory.h"
+#include "icpscape/common/names.h"
 
 namespace icpscape {
 

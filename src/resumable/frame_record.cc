@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "src/resumable/frame_record.h"
+#include "icpscape/resumable/frame_record.h"
 
 #include <algorithm>
 #include <cmath>
@@ -7,8 +7,8 @@
 #include <type_traits>
 #include <vector>
 
-#include "src/common/error.h"
-#include "src/common/text.h"
+#include "icpscape/common/error.h"
+#include "icpscape/common/text.h"
 
 namespace icpscape {
 namespace {

@@ -4,7 +4,7 @@
 
 #include <string>
 
-#include "src/odometry/odometry.h"
+#include "icpscape/odometry/odometry.h"
 
 namespace icpscape {
 

@@ -6,11 +6,11 @@
 #include <optional>
 #include <vector>
 
-#include "src/io/journal.h"
-#include "src/io/sequences.h"
-#include "src/odometry/odometry.h"
-#include "src/odometry/voxel_map.h"
-#include "src/resumable/frame_record.h"
+#include "icpscape/io/journal.h"
+#include "icpscape/io/sequences.h"
+#include "icpscape/odometry/odometry.h"
+#include "icpscape/odometry/voxel_map.h"
+#include "icpscape/resumable/frame_record.h"
 
 namespace icpscape {
 

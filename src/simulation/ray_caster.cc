@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "src/simulation/ray_caster.h"
+#include "icpscape/simulation/ray_caster.h"
 
 #include <embree3/rtcore.h>
 #include <oneapi/tbb/task_arena.h>
@@ -7,7 +7,7 @@
 #include <cmath>
 #include <string>
 
-#include "src/common/error.h"
+#include "icpscape/common/error.h"
 
 namespace icpscape {
 

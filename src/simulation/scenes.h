@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-#include "src/simulation/world.h"
+#include "icpscape/simulation/world.h"
 
 namespace icpscape {
 

@@ -4,7 +4,7 @@
 
 #include <cstdint>
 
-#include "src/cloud/label.h"
+#include "icpscape/cloud/label.h"
 
 namespace icpscape {
 

@@ -36,8 +36,8 @@ for example in own_solver ceres_problem register_two_clouds landscape_of_two_clo
 done
 
 # All of core's headers, not only those that the examples include.
-(cd "$work/prefix/include/icpscape" && find "${@/#/src/}" -name '*.h') |
-  sed 's/.*/#include "&"/' >"$work/all.cc"
+(cd "$work/prefix/include" && find "${@/#/icpscape/}" -name '*.h') |
+  sed 's/.*/#include <&>/' >"$work/all.cc"
 [ "$(wc -l <"$work/all.cc")" -gt 50 ]
 command=$(ninja -C "$work/build" -t commands CMakeFiles/register_two_clouds.dir/register_two_clouds.cc.o)
 includes=$(grep -oE -- '-(I|isystem) ?[^ ]+' <<<"$command")

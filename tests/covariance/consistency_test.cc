@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "src/covariance/consistency.h"
+#include "icpscape/covariance/consistency.h"
 
 #include <gtest/gtest.h>
 
@@ -7,7 +7,7 @@
 #include <cmath>
 #include <random>
 
-#include "src/common/error.h"
+#include "icpscape/common/error.h"
 #include "tests/support/message_of.h"
 
 namespace icpscape {

@@ -5,12 +5,12 @@
 #include <nlohmann/json.hpp>
 #include <random>
 
-#include "src/common/error.h"
-#include "src/common/text.h"
-#include "src/io/manifest.h"
-#include "src/io/output.h"
-#include "src/io/point_files.h"
-#include "src/io/transform.h"
+#include "icpscape/common/error.h"
+#include "icpscape/common/text.h"
+#include "icpscape/io/manifest.h"
+#include "icpscape/io/output.h"
+#include "icpscape/io/point_files.h"
+#include "icpscape/io/transform.h"
 #include "tests/support/message_of.h"
 #include "tests/support/scenes.h"
 #include "tests/support/temporary_folder.h"

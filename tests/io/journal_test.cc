@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "src/io/journal.h"
+#include "icpscape/io/journal.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -7,7 +7,7 @@
 
 #include <csignal>
 
-#include "src/io/sha256.h"
+#include "icpscape/io/sha256.h"
 #include "tests/support/message_of.h"
 #include "tests/support/temporary_folder.h"
 

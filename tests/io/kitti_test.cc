@@ -1,14 +1,14 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "src/io/kitti.h"
+#include "icpscape/io/kitti.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include <fstream>
 
-#include "src/common/error.h"
-#include "src/io/kitti_writer.h"
-#include "src/io/sequences.h"
+#include "icpscape/common/error.h"
+#include "icpscape/io/kitti_writer.h"
+#include "icpscape/io/sequences.h"
 #include "tests/support/message_of.h"
 #include "tests/support/real_scans.h"
 #include "tests/support/temporary_folder.h"

@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "src/io/trajectory.h"
+#include "icpscape/io/trajectory.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include <sstream>
 
-#include "src/common/error.h"
+#include "icpscape/common/error.h"
 #include "tests/support/message_of.h"
 #include "tests/support/real_scans.h"
 #include "tests/support/temporary_folder.h"

@@ -75,8 +75,16 @@ def layer_of(path):
 
 def included_file(root, includer, name):
     """The file of the tree that an #include names, if it is one of the tree."""
-    name = name.removeprefix("icpscape/")
-    for candidate in (includer.parent / name, pathlib.Path(name), pathlib.Path("src") / name):
+    parts = name.split("/")
+    if parts[0] == "icpscape" and len(parts) > 1:  # As the links of CMakeLists.txt have it.
+        folder = {"residuals": "residuals", "testing": "tests/testing"}.get(
+            parts[1], "src/" + parts[1])
+        candidates = [pathlib.Path(folder, *parts[2:])]
+    else:
+        candidates = [includer.parent / name]
+        if parts[0] in ("tests", "apps"):
+            candidates.append(pathlib.Path(name))
+    for candidate in candidates:
         if (root / candidate).is_file():
             return pathlib.Path(os.path.normpath(candidate))
     return None
@@ -136,7 +144,8 @@ def check(root, folders):
                 errors.append(f"{file}:{number}: {wrong}")
             if included is None:
                 if match[2].split("/")[0] in OWN:
-                    errors.append(f"{file}:{number}: {match[2]} is not in the tree")
+                    errors.append(f"{file}:{number}: {match[2]} is not in the tree; expected "
+                                  "icpscape/FOLDER/NAME.h, or a path below apps/ or tests/")
                 continue
             includes += 1
             below = layer_of(included)

@@ -16,7 +16,7 @@ class CheckLayers(unittest.TestCase):
             root = pathlib.Path(folder)
             # Two files that are as they should be, so that some file includes another.
             files = {"src/common/a.h": "#include <vector>",
-                     "src/cloud/b.h": '#include "src/common/a.h"\n#include <ceres/ceres.h>',
+                     "src/cloud/b.h": '#include "icpscape/common/a.h"\n#include <ceres/ceres.h>',
                      **files}
             for name, text in files.items():
                 (root / name).parent.mkdir(parents=True, exist_ok=True)
@@ -30,17 +30,17 @@ class CheckLayers(unittest.TestCase):
 
     def test_what_is_allowed(self):
         self.assertEqual(self.errors({}), [])
-        self.assertEqual(self.errors({"src/io/point_files.cc": '#include "src/cloud/b.h"\n'
+        self.assertEqual(self.errors({"src/io/point_files.cc": '#include "icpscape/cloud/b.h"\n'
                                                                "#include <pcl/io/pcd_io.h>",
                                       "residuals/adapters/ceres.h": "#include <ceres/ceres.h>",
                                       "apps/flags/f.cc": "#include <gflags/gflags.h>"}), [])
 
     def test_upwards(self):
-        self.assert_one({"src/common/c.h": '\n#include "src/cloud/b.h"'},
+        self.assert_one({"src/common/c.h": '\n#include "icpscape/cloud/b.h"'},
                         "src/common/c.h:2: includes src/cloud/b.h, of the layer src/cloud, which")
 
     def test_another_target(self):
-        self.assert_one({"src/io/d.h": "", "src/simulation/e.h": '#include "src/io/d.h"'},
+        self.assert_one({"src/io/d.h": "", "src/simulation/e.h": '#include "icpscape/io/d.h"'},
                         "src/simulation/e.h:1: includes src/io/d.h of io, which simulation does")
 
     def test_a_library_of_another_target(self):
@@ -64,7 +64,9 @@ class CheckLayers(unittest.TestCase):
         self.assertEqual(errors, ["src/cloud: is in no target; expected it in src/CMakeLists.txt"])
 
     def test_a_file_that_is_not_there(self):
-        self.assert_one({"src/cloud/c.h": '#include "src/cloud/gone.h"'}, "is not in the tree")
+        self.assert_one({"src/cloud/c.h": '#include "icpscape/cloud/gone.h"'}, "is not in the tree")
+        # By another name than the installed one.
+        self.assert_one({"src/cloud/c.h": '#include "src/common/a.h"'}, "expected icpscape/FOLDER")
 
 
 if __name__ == "__main__":

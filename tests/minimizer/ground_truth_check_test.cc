@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "src/minimizer/ground_truth_check.h"
+#include "icpscape/minimizer/ground_truth_check.h"
 
 #include <gtest/gtest.h>
 
-#include "src/cloud/normals.h"
-#include "src/io/sequences.h"
+#include "icpscape/cloud/normals.h"
+#include "icpscape/io/sequences.h"
 #include "tests/support/real_scans.h"
 
 namespace icpscape {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "src/minimizer/minimizer.h"
+#include "icpscape/minimizer/minimizer.h"
 
 #include <ceres/loss_function.h>
 #include <gtest/gtest.h>
@@ -7,12 +7,12 @@
 #include <Eigen/Eigenvalues>
 #include <cmath>
 
-#include "residuals/registry.h"
-#include "src/cloud/normals.h"
-#include "src/io/kitti.h"
-#include "src/io/sequences.h"
-#include "src/matching/closest_point_matcher.h"
-#include "src/objective/loss.h"
+#include "icpscape/cloud/normals.h"
+#include "icpscape/io/kitti.h"
+#include "icpscape/io/sequences.h"
+#include "icpscape/matching/closest_point_matcher.h"
+#include "icpscape/objective/loss.h"
+#include "icpscape/residuals/registry.h"
 #include "tests/support/matchers.h"
 #include "tests/support/message_of.h"
 #include "tests/support/named.h"

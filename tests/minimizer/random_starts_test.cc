@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "src/minimizer/random_starts.h"
+#include "icpscape/minimizer/random_starts.h"
 
 #include <gtest/gtest.h>
 
 #include <cmath>
 
-#include "src/matching/closest_point_matcher.h"
+#include "icpscape/matching/closest_point_matcher.h"
 #include "tests/support/scenes.h"
 
 namespace icpscape {

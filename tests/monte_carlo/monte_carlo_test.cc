@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "src/monte_carlo/monte_carlo.h"
+#include "icpscape/monte_carlo/monte_carlo.h"
 
 #include <gtest/gtest.h>
 
-#include "src/common/error.h"
-#include "src/simulation/scenes.h"
-#include "src/simulation/simulated_sequence.h"
+#include "icpscape/common/error.h"
+#include "icpscape/simulation/scenes.h"
+#include "icpscape/simulation/simulated_sequence.h"
 #include "tests/support/prepared.h"
 
 namespace icpscape {

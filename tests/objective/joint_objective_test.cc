@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "src/objective/joint_objective.h"
+#include "icpscape/objective/joint_objective.h"
 
 #include <ceres/problem.h>
 #include <gtest/gtest.h>
@@ -8,12 +8,12 @@
 #include <type_traits>
 #include <utility>
 
-#include "residuals/adapters/ceres.h"
-#include "src/cloud/normals.h"
-#include "src/common/error.h"
-#include "src/minimizer/minimizer.h"
-#include "src/objective/loss.h"
-#include "src/objective/objective_set.h"
+#include "icpscape/cloud/normals.h"
+#include "icpscape/common/error.h"
+#include "icpscape/minimizer/minimizer.h"
+#include "icpscape/objective/loss.h"
+#include "icpscape/objective/objective_set.h"
+#include "icpscape/residuals/adapters/ceres.h"
 #include "tests/support/prepared.h"
 #include "tests/support/scenes.h"
 

@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "src/objective/objective_set.h"
+#include "icpscape/objective/objective_set.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "residuals/registry.h"
-#include "src/cloud/normals.h"
-#include "src/common/error.h"
-#include "src/objective/loss.h"
+#include "icpscape/cloud/normals.h"
+#include "icpscape/common/error.h"
+#include "icpscape/objective/loss.h"
+#include "icpscape/residuals/registry.h"
 #include "tests/support/message_of.h"
 #include "tests/support/prepared.h"
 #include "tests/support/scenes.h"

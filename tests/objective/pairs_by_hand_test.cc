@@ -9,10 +9,10 @@
 #include <map>
 #include <set>
 
-#include "residuals/registry.h"
-#include "src/objective/loss.h"
-#include "src/objective/objective.h"
-#include "src/objective/pairs.h"
+#include "icpscape/objective/loss.h"
+#include "icpscape/objective/objective.h"
+#include "icpscape/objective/pairs.h"
+#include "icpscape/residuals/registry.h"
 #include "tests/support/matchers.h"
 #include "tests/support/message_of.h"
 #include "tests/support/scenes.h"

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "src/objective/pass.h"
+#include "icpscape/objective/pass.h"
 
 #include <ceres/loss_function.h>
 #include <gtest/gtest.h>
@@ -8,10 +8,10 @@
 #include <cmath>
 #include <limits>
 
-#include "residuals/registry.h"
-#include "src/landscape/curve.h"
-#include "src/objective/loss.h"
-#include "src/objective/objective_set.h"
+#include "icpscape/landscape/curve.h"
+#include "icpscape/objective/loss.h"
+#include "icpscape/objective/objective_set.h"
+#include "icpscape/residuals/registry.h"
 #include "tests/support/matchers.h"
 #include "tests/support/message_of.h"
 #include "tests/support/scenes.h"

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "src/odometry/trajectory_errors.h"
+#include "icpscape/odometry/trajectory_errors.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -7,8 +7,8 @@
 #include <cmath>
 #include <random>
 
-#include "src/common/error.h"
-#include "src/io/trajectory.h"
+#include "icpscape/common/error.h"
+#include "icpscape/io/trajectory.h"
 #include "tests/support/message_of.h"
 #include "tests/support/real_scans.h"
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "src/resumable/frame_record.h"
+#include "icpscape/resumable/frame_record.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -9,7 +9,7 @@
 #include <limits>
 #include <random>
 
-#include "src/common/text.h"
+#include "icpscape/common/text.h"
 #include "tests/support/message_of.h"
 
 namespace icpscape {

@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "src/simulation/lidar.h"
+#include "icpscape/simulation/lidar.h"
 
 #include <gtest/gtest.h>
 
 #include <cmath>
 
-#include "src/common/error.h"
+#include "icpscape/common/error.h"
 
 namespace icpscape {
 namespace {
