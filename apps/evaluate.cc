@@ -9,9 +9,10 @@
 #include "apps/reports/trajectory.h"
 #include "apps/run/app.h"
 #include "apps/run/run.h"
-#include "src/common/error.h"
-#include "src/common/text.h"
-#include "src/io/kitti.h"
+#include "icpscape/common/error.h"
+#include "icpscape/common/text.h"
+#include "icpscape/io/kitti.h"
+#include "icpscape/io/trajectory.h"
 
 namespace icpscape {
 namespace {

@@ -11,8 +11,8 @@
 #include "apps/run/app.h"
 #include "apps/run/progress.h"
 #include "apps/run/run.h"
-#include "src/common/text.h"
-#include "src/filtering/filter_chain.h"
+#include "icpscape/common/text.h"
+#include "icpscape/filtering/filter_chain.h"
 
 DECLARE_double(voxel_m);
 DECLARE_string(initial);

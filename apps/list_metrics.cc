@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "apps/run/app.h"
-#include "residuals/registry.h"
+#include "icpscape/residuals/registry.h"
 
 DEFINE_bool(markdown, false, "Print the tables as Markdown, as in docs/metrics.md.");
 

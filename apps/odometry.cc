@@ -12,7 +12,7 @@
 #include "apps/run/app.h"
 #include "apps/run/progress.h"
 #include "apps/run/run.h"
-#include "src/common/text.h"
+#include "icpscape/common/text.h"
 
 DEFINE_bool(restart, false, "Begins again, without the journal of an earlier run in --out.");
 static const icpscape::FlagMark restart_mark(&FLAGS_restart, icpscape::kAside);

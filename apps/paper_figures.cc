@@ -13,8 +13,8 @@
 #include "apps/run/progress.h"
 #include "apps/run/run.h"
 #include "apps/run/run_flags.h"
-#include "src/io/sequences.h"
-#include "src/simulation/simulated_sequence.h"
+#include "icpscape/io/sequences.h"
+#include "icpscape/simulation/simulated_sequence.h"
 
 namespace icpscape {
 namespace {

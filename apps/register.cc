@@ -16,8 +16,8 @@
 #include "apps/run/app.h"
 #include "apps/run/progress.h"
 #include "apps/run/run.h"
-#include "src/common/error.h"
-#include "src/io/point_files.h"
+#include "icpscape/common/error.h"
+#include "icpscape/io/point_files.h"
 
 DEFINE_int32(starts, 0, "Number of random starts about the reference, for the success rate.");
 static const icpscape::FlagMark starts_mark(&FLAGS_starts, icpscape::kAside);
@@ -65,7 +65,7 @@ void Register() {
     check = ReportGroundTruthCheck(pair, scans, FLAGS_starts > 0, ThreadsFromFlags(), manifest);
   }
   const ObjectiveSet set(FilterFromFlags(scans, pair, manifest), metrics, ObjectiveSetFromFlags());
-  const JointObjective objective = JointFromFlags(set.objectives());
+  const JointObjective objective(set.objectives(), WeightsFromFlags());
   const MinimizerSummary summary = Minimize(objective, T_initial, options);
   manifest->AddTiming("register");
   if (!summary.Usable()) {

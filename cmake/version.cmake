@@ -3,10 +3,10 @@
 add_custom_target(
   icpscape_version_file
   COMMAND ${CMAKE_COMMAND} -DSOURCE_DIR=${PROJECT_SOURCE_DIR} -DRELEASE=${PROJECT_VERSION}
-          -DOUTPUT=${CMAKE_BINARY_DIR}/generated/icpscape_version.h -P
+          -DOUTPUT=${PROJECT_BINARY_DIR}/generated/icpscape_version.h -P
           ${PROJECT_SOURCE_DIR}/cmake/write_version.cmake
-  BYPRODUCTS ${CMAKE_BINARY_DIR}/generated/icpscape_version.h
+  BYPRODUCTS ${PROJECT_BINARY_DIR}/generated/icpscape_version.h
   COMMENT "Noting the version")
 add_library(icpscape_version INTERFACE)
-target_include_directories(icpscape_version INTERFACE ${CMAKE_BINARY_DIR}/generated)
+target_include_directories(icpscape_version INTERFACE ${PROJECT_BINARY_DIR}/generated)
 add_dependencies(icpscape_version icpscape_version_file)

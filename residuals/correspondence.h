@@ -4,8 +4,8 @@
 
 #include <string>
 
-#include "residuals/kinds.h"
-#include "residuals/lie.h"
+#include "kinds.h"
+#include "lie.h"
 
 namespace icpscape {
 

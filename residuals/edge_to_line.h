@@ -2,7 +2,7 @@
 #ifndef ICPSCAPE_RESIDUALS_EDGE_TO_LINE_H_
 #define ICPSCAPE_RESIDUALS_EDGE_TO_LINE_H_
 
-#include "residuals/correspondence.h"
+#include "correspondence.h"
 
 namespace icpscape {
 

@@ -4,7 +4,7 @@
 
 #include <cstddef>
 
-#include "residuals/lie.h"
+#include "lie.h"
 
 // What a quantity of a correspondence can be. Each kind says what type it is (Value), how many
 // numbers stand for it where pairs are stored (kSize), how the two turn into one another (Make

@@ -2,7 +2,7 @@
 #ifndef ICPSCAPE_RESIDUALS_NORMAL_EQUATIONS_H_
 #define ICPSCAPE_RESIDUALS_NORMAL_EQUATIONS_H_
 
-#include "residuals/lie.h"
+#include "lie.h"
 
 namespace icpscape {
 

@@ -2,8 +2,8 @@
 #ifndef ICPSCAPE_RESIDUALS_PLANAR_TO_PATCH_H_
 #define ICPSCAPE_RESIDUALS_PLANAR_TO_PATCH_H_
 
-#include "residuals/correspondence.h"
-#include "residuals/point_to_plane.h"
+#include "correspondence.h"
+#include "point_to_plane.h"
 
 namespace icpscape {
 

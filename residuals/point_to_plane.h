@@ -2,7 +2,7 @@
 #ifndef ICPSCAPE_RESIDUALS_POINT_TO_PLANE_H_
 #define ICPSCAPE_RESIDUALS_POINT_TO_PLANE_H_
 
-#include "residuals/correspondence.h"
+#include "correspondence.h"
 
 namespace icpscape {
 

@@ -5,11 +5,11 @@
 #include <string_view>
 #include <type_traits>
 
-#include "residuals/edge_to_line.h"
-#include "residuals/planar_to_patch.h"
-#include "residuals/point_to_plane.h"
-#include "residuals/point_to_point.h"
-#include "residuals/symmetric.h"
+#include "edge_to_line.h"
+#include "planar_to_patch.h"
+#include "point_to_plane.h"
+#include "point_to_point.h"
+#include "symmetric.h"
 
 namespace icpscape {
 

@@ -2,7 +2,7 @@
 #ifndef ICPSCAPE_RESIDUALS_SYMMETRIC_H_
 #define ICPSCAPE_RESIDUALS_SYMMETRIC_H_
 
-#include "residuals/correspondence.h"
+#include "correspondence.h"
 
 // Four metrics go by the name "symmetric"; they differ in what turns with T. With
 // e = R p + t - q, n_p = n_source and n_q = n_target, each turned towards its sensor:

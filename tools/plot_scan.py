@@ -16,7 +16,7 @@ import matplotlib.pyplot as plt
 import numpy as np
 from PIL import Image
 
-# SemanticKITTI's classes (src/simulation/surface.h).
+# SemanticKITTI's classes (src/cloud/label.h).
 CLASSES = {
     40: ("road", "#b9b4be"),
     48: ("pavement", "#8d7fa6"),

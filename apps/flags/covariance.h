@@ -2,7 +2,7 @@
 #ifndef ICPSCAPE_APPS_FLAGS_COVARIANCE_H_
 #define ICPSCAPE_APPS_FLAGS_COVARIANCE_H_
 
-#include "src/covariance/covariance.h"
+#include "icpscape/covariance/covariance.h"
 
 namespace icpscape {
 

@@ -7,7 +7,7 @@
 
 #include "apps/run/flag.h"
 #include "apps/run/run_flags.h"
-#include "src/common/text.h"
+#include "icpscape/common/text.h"
 
 static const icpscape::FlagGroup group(__FILE__, "Curve along the path");
 

@@ -2,8 +2,8 @@
 #ifndef ICPSCAPE_APPS_FLAGS_DRIVE_H_
 #define ICPSCAPE_APPS_FLAGS_DRIVE_H_
 
-#include "src/cloud/scan_sequence.h"
-#include "src/io/manifest.h"
+#include "icpscape/cloud/scan_sequence.h"
+#include "icpscape/io/manifest.h"
 
 namespace icpscape {
 

@@ -6,7 +6,7 @@
 #include <cmath>
 
 #include "apps/run/flag.h"
-#include "src/common/text.h"
+#include "icpscape/common/text.h"
 
 static const icpscape::FlagGroup group(__FILE__, "Edge and planar points");
 

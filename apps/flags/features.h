@@ -2,7 +2,7 @@
 #ifndef ICPSCAPE_APPS_FLAGS_FEATURES_H_
 #define ICPSCAPE_APPS_FLAGS_FEATURES_H_
 
-#include "src/cloud/features.h"
+#include "icpscape/cloud/features.h"
 
 namespace icpscape {
 

@@ -2,7 +2,7 @@
 #ifndef ICPSCAPE_APPS_FLAGS_FILTERS_H_
 #define ICPSCAPE_APPS_FLAGS_FILTERS_H_
 
-#include "src/filtering/filter_chain.h"
+#include "icpscape/filtering/filter_chain.h"
 
 namespace icpscape {
 

@@ -4,7 +4,7 @@
 #include <gflags/gflags.h>
 
 #include "apps/run/flag.h"
-#include "src/common/error.h"
+#include "icpscape/common/error.h"
 
 static const icpscape::FlagGroup group(__FILE__, "Input: part of a drive");
 

@@ -2,7 +2,7 @@
 #ifndef ICPSCAPE_APPS_FLAGS_FRAMES_H_
 #define ICPSCAPE_APPS_FLAGS_FRAMES_H_
 
-#include "src/cloud/scan_sequence.h"
+#include "icpscape/cloud/scan_sequence.h"
 
 namespace icpscape {
 

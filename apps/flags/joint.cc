@@ -5,11 +5,10 @@
 
 #include <cmath>
 #include <string>
-#include <utility>
 
 #include "apps/flags/objective.h"
 #include "apps/run/flag.h"
-#include "src/common/text.h"
+#include "icpscape/common/text.h"
 
 static const icpscape::FlagGroup group(__FILE__, "Several metrics at once");
 
@@ -29,15 +28,6 @@ std::vector<double> WeightsFromFlags() {
   RequireFlag(weights.empty() || weights.size() == MetricsFromFlags().size(), "weights",
               FLAGS_weights, "one weight per metric");
   return weights;
-}
-
-JointObjective JointFromFlags(const std::vector<Objective>& objectives) {
-  const std::vector<double> weights = WeightsFromFlags();
-  std::vector<JointObjective::Term> terms;
-  for (std::size_t i = 0; i < objectives.size(); ++i) {
-    terms.push_back({&objectives[i], weights.empty() ? 1.0 : weights[i]});
-  }
-  return JointObjective(std::move(terms));
 }
 
 }  // namespace icpscape

@@ -5,7 +5,7 @@
 #include <cstdint>
 #include <string>
 
-#include "src/simulation/lidar.h"
+#include "icpscape/simulation/lidar.h"
 
 namespace icpscape {
 

@@ -4,7 +4,7 @@
 #include <gflags/gflags.h>
 
 #include "apps/run/flag.h"
-#include "src/common/text.h"
+#include "icpscape/common/text.h"
 
 static const icpscape::FlagGroup group(__FILE__, "Lines and patches of neighbours");
 

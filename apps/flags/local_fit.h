@@ -2,7 +2,7 @@
 #ifndef ICPSCAPE_APPS_FLAGS_LOCAL_FIT_H_
 #define ICPSCAPE_APPS_FLAGS_LOCAL_FIT_H_
 
-#include "src/matching/local_fit_matcher.h"
+#include "icpscape/matching/local_fit_matcher.h"
 
 namespace icpscape {
 

@@ -2,7 +2,7 @@
 #ifndef ICPSCAPE_APPS_FLAGS_MATCHING_H_
 #define ICPSCAPE_APPS_FLAGS_MATCHING_H_
 
-#include "src/matching/closest_point_matcher.h"
+#include "icpscape/matching/closest_point_matcher.h"
 
 namespace icpscape {
 

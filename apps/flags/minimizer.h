@@ -4,7 +4,7 @@
 
 #include <string>
 
-#include "src/minimizer/minimizer.h"
+#include "icpscape/minimizer/minimizer.h"
 
 namespace icpscape {
 

@@ -10,7 +10,7 @@
 #include "apps/flags/starts.h"
 #include "apps/run/flag.h"
 #include "apps/run/run_flags.h"
-#include "src/common/text.h"
+#include "icpscape/common/text.h"
 
 DECLARE_string(scene);
 

@@ -2,7 +2,7 @@
 #ifndef ICPSCAPE_APPS_FLAGS_MONTE_CARLO_H_
 #define ICPSCAPE_APPS_FLAGS_MONTE_CARLO_H_
 
-#include "src/covariance/monte_carlo.h"
+#include "icpscape/monte_carlo/monte_carlo.h"
 
 namespace icpscape {
 

@@ -7,8 +7,8 @@
 #include "apps/flags/matching.h"
 #include "apps/run/flag.h"
 #include "apps/run/run_flags.h"
-#include "src/common/text.h"
-#include "src/objective/loss.h"
+#include "icpscape/common/text.h"
+#include "icpscape/objective/loss.h"
 
 static const icpscape::FlagGroup group(__FILE__, "Metrics and loss");
 

@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "apps/flags/features.h"
-#include "src/objective/objective_set.h"
+#include "icpscape/objective/objective_set.h"
 
 namespace icpscape {
 

@@ -13,7 +13,7 @@
 #include "apps/flags/preparation.h"
 #include "apps/run/flag.h"
 #include "apps/run/run_flags.h"
-#include "src/common/text.h"
+#include "icpscape/common/text.h"
 
 static const icpscape::FlagGroup group(__FILE__, "Odometry");
 

@@ -2,7 +2,7 @@
 #ifndef ICPSCAPE_APPS_FLAGS_ODOMETRY_H_
 #define ICPSCAPE_APPS_FLAGS_ODOMETRY_H_
 
-#include "src/odometry/odometry.h"
+#include "icpscape/odometry/odometry.h"
 
 namespace icpscape {
 

@@ -12,9 +12,9 @@
 #include "apps/flags/preparation.h"
 #include "apps/flags/sequence.h"
 #include "apps/run/flag.h"
-#include "src/common/error.h"
-#include "src/io/sequences.h"
-#include "src/io/transform.h"
+#include "icpscape/common/error.h"
+#include "icpscape/io/sequences.h"
+#include "icpscape/io/transform.h"
 
 static const icpscape::FlagGroup group(__FILE__, "Input: the pair of scans");
 

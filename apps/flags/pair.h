@@ -6,9 +6,9 @@
 #include <vector>
 
 #include "apps/run/run_flags.h"
-#include "src/cloud/scan_pair.h"
-#include "src/io/manifest.h"
-#include "src/preparation/prepared_pair.h"
+#include "icpscape/cloud/scan_pair.h"
+#include "icpscape/io/manifest.h"
+#include "icpscape/preparation/prepared_pair.h"
 
 namespace icpscape {
 

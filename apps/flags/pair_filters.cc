@@ -10,9 +10,9 @@
 
 #include "apps/flags/filters.h"
 #include "apps/run/flag.h"
-#include "src/common/error.h"
-#include "src/filtering/filter_statistics.h"
-#include "src/io/transform.h"
+#include "icpscape/common/error.h"
+#include "icpscape/filtering/filter_statistics.h"
+#include "icpscape/io/transform.h"
 
 static const icpscape::FlagGroup group(__FILE__, "Predicted pose of the filters",
                                        icpscape::kNotOfDraws);

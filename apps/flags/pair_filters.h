@@ -3,7 +3,7 @@
 #define ICPSCAPE_APPS_FLAGS_PAIR_FILTERS_H_
 
 #include "apps/flags/pair.h"
-#include "src/io/manifest.h"
+#include "icpscape/io/manifest.h"
 
 namespace icpscape {
 

@@ -10,8 +10,8 @@
 #include "apps/flags/lidar.h"
 #include "apps/run/flag.h"
 #include "apps/run/run_flags.h"
-#include "src/common/error.h"
-#include "src/common/text.h"
+#include "icpscape/common/error.h"
+#include "icpscape/common/text.h"
 
 static const icpscape::FlagGroup group(__FILE__, "The paper's figures");
 

@@ -6,8 +6,8 @@
 #include <string>
 #include <vector>
 
-#include "src/landscape/curve.h"
-#include "src/paper/figures.h"
+#include "icpscape/landscape/curve.h"
+#include "icpscape/paper/figures.h"
 
 namespace icpscape {
 

@@ -8,7 +8,7 @@
 
 #include "apps/flags/objective.h"
 #include "apps/run/flag.h"
-#include "src/common/text.h"
+#include "icpscape/common/text.h"
 
 static const icpscape::FlagGroup group(__FILE__, "Preparation of a scan");
 

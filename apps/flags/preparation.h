@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "src/preparation/prepared_scan.h"
+#include "icpscape/preparation/prepared_scan.h"
 
 namespace icpscape {
 

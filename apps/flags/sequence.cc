@@ -6,11 +6,11 @@
 #include "apps/flags/lidar.h"
 #include "apps/run/flag.h"
 #include "apps/run/run_flags.h"
-#include "src/common/error.h"
-#include "src/io/sequences.h"
-#include "src/io/trajectory.h"
-#include "src/simulation/scenes.h"
-#include "src/simulation/simulated_sequence.h"
+#include "icpscape/common/error.h"
+#include "icpscape/io/sequences.h"
+#include "icpscape/io/trajectory.h"
+#include "icpscape/simulation/scenes.h"
+#include "icpscape/simulation/simulated_sequence.h"
 
 static const icpscape::FlagGroup group(__FILE__, "Input: scans");
 

@@ -4,8 +4,8 @@
 #include <gflags/gflags.h>
 
 #include "apps/run/flag.h"
-#include "src/common/error.h"
-#include "src/simulation/scenes.h"
+#include "icpscape/common/error.h"
+#include "icpscape/simulation/scenes.h"
 
 static const icpscape::FlagGroup group(__FILE__, "Scene or drive");
 

@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "src/io/sequences.h"
+#include "icpscape/io/sequences.h"
 
 namespace icpscape {
 

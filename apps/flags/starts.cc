@@ -7,7 +7,7 @@
 
 #include "apps/flags/lidar.h"
 #include "apps/run/flag.h"
-#include "src/common/text.h"
+#include "icpscape/common/text.h"
 
 static const icpscape::FlagGroup group(__FILE__, "Random starts");
 

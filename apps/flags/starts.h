@@ -2,7 +2,7 @@
 #ifndef ICPSCAPE_APPS_FLAGS_STARTS_H_
 #define ICPSCAPE_APPS_FLAGS_STARTS_H_
 
-#include "src/minimizer/random_starts.h"
+#include "icpscape/minimizer/random_starts.h"
 
 namespace icpscape {
 

@@ -8,8 +8,8 @@
 #include <set>
 
 #include "apps/run/flag.h"
-#include "src/common/error.h"
-#include "src/common/text.h"
+#include "icpscape/common/error.h"
+#include "icpscape/common/text.h"
 
 static const icpscape::FlagGroup group(__FILE__, "Input: trajectories");
 

@@ -8,7 +8,7 @@
 #include <limits>
 #include <utility>
 
-#include "src/common/text.h"
+#include "icpscape/common/text.h"
 
 namespace icpscape {
 namespace {

@@ -6,8 +6,8 @@
 #include <vector>
 
 #include "apps/run/run.h"
-#include "src/covariance/monte_carlo.h"
-#include "src/io/output.h"
+#include "icpscape/io/output.h"
+#include "icpscape/monte_carlo/monte_carlo.h"
 
 namespace icpscape {
 

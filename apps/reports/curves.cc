@@ -5,8 +5,8 @@
 #include <cstdio>
 #include <string>
 
-#include "src/common/text.h"
-#include "src/io/output.h"
+#include "icpscape/common/text.h"
+#include "icpscape/io/output.h"
 
 namespace icpscape {
 

@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "apps/run/run.h"
-#include "src/landscape/curve.h"
+#include "icpscape/landscape/curve.h"
 
 namespace icpscape {
 

@@ -4,9 +4,9 @@
 #include <cmath>
 #include <cstdio>
 
-#include "src/filtering/filter_statistics.h"
-#include "src/filtering/octree_correspondence_filter.h"
-#include "src/simulation/surface.h"
+#include "icpscape/cloud/label.h"
+#include "icpscape/filtering/filter_statistics.h"
+#include "icpscape/filtering/octree_correspondence_filter.h"
 
 namespace icpscape {
 

@@ -6,8 +6,8 @@
 #include <vector>
 
 #include "apps/run/run.h"
-#include "src/io/output.h"
-#include "src/paper/filter_bias.h"
+#include "icpscape/io/output.h"
+#include "icpscape/paper/filter_bias.h"
 
 namespace icpscape {
 

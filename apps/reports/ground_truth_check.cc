@@ -5,7 +5,7 @@
 #include <cstdio>
 #include <iostream>
 
-#include "src/common/error.h"
+#include "icpscape/common/error.h"
 
 namespace icpscape {
 

@@ -4,10 +4,10 @@
 
 #include <optional>
 
-#include "src/cloud/scan_pair.h"
-#include "src/io/manifest.h"
-#include "src/minimizer/ground_truth_check.h"
-#include "src/preparation/prepared_pair.h"
+#include "icpscape/cloud/scan_pair.h"
+#include "icpscape/io/manifest.h"
+#include "icpscape/minimizer/ground_truth_check.h"
+#include "icpscape/preparation/prepared_pair.h"
 
 namespace icpscape {
 

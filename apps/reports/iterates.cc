@@ -7,9 +7,9 @@
 #include <string>
 #include <utility>
 
-#include "src/common/text.h"
-#include "src/io/output.h"
-#include "src/landscape/path_projection.h"
+#include "icpscape/common/text.h"
+#include "icpscape/io/output.h"
+#include "icpscape/landscape/path_projection.h"
 
 namespace icpscape {
 namespace {

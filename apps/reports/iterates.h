@@ -6,8 +6,8 @@
 #include <vector>
 
 #include "apps/run/run.h"
-#include "src/landscape/path.h"
-#include "src/minimizer/minimize_each.h"
+#include "icpscape/landscape/path.h"
+#include "icpscape/minimizer/minimize_each.h"
 
 namespace icpscape {
 

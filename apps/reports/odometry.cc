@@ -6,10 +6,11 @@
 #include <cstdio>
 #include <iostream>
 
-#include "src/common/text.h"
-#include "src/io/kitti.h"
-#include "src/io/output.h"
-#include "src/io/point_files.h"
+#include "icpscape/common/text.h"
+#include "icpscape/io/kitti.h"
+#include "icpscape/io/output.h"
+#include "icpscape/io/point_files.h"
+#include "icpscape/io/trajectory.h"
 
 namespace icpscape {
 namespace {

@@ -6,7 +6,7 @@
 
 #include "apps/reports/trajectory.h"
 #include "apps/run/run.h"
-#include "src/odometry/resumable.h"
+#include "icpscape/resumable/resumable_odometry.h"
 
 namespace icpscape {
 

@@ -4,9 +4,9 @@
 #include <algorithm>
 #include <iostream>
 
-#include "src/common/text.h"
-#include "src/io/output.h"
-#include "src/paper/predicates.h"
+#include "icpscape/common/text.h"
+#include "icpscape/io/output.h"
+#include "icpscape/paper/predicates.h"
 
 namespace icpscape {
 namespace {

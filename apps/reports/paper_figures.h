@@ -7,9 +7,9 @@
 #include <vector>
 
 #include "apps/run/run.h"
-#include "src/paper/claims.h"
-#include "src/paper/figures.h"
-#include "src/paper/paper_curves.h"
+#include "icpscape/paper/claims.h"
+#include "icpscape/paper/figures.h"
+#include "icpscape/paper/paper_curves.h"
 
 namespace icpscape {
 

@@ -7,9 +7,9 @@
 #include <optional>
 
 #include "apps/reports/iterates.h"
-#include "src/common/text.h"
-#include "src/io/output.h"
-#include "src/io/transform.h"
+#include "icpscape/common/text.h"
+#include "icpscape/io/output.h"
+#include "icpscape/io/transform.h"
 
 namespace icpscape {
 namespace {

@@ -5,7 +5,7 @@
 #include <string>
 
 #include "apps/run/run.h"
-#include "src/minimizer/random_starts.h"
+#include "icpscape/minimizer/random_starts.h"
 
 namespace icpscape {
 

@@ -8,8 +8,8 @@
 #include <utility>
 
 #include "apps/run/flag.h"
-#include "src/common/text.h"
-#include "src/io/output.h"
+#include "icpscape/common/text.h"
+#include "icpscape/io/output.h"
 
 namespace icpscape {
 namespace {

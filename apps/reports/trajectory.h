@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "apps/run/run.h"
-#include "src/odometry/trajectory_errors.h"
+#include "icpscape/odometry/trajectory_errors.h"
 
 namespace icpscape {
 

@@ -10,9 +10,9 @@
 #include <new>
 
 #include "apps/run/interrupt.h"
-#include "src/common/error.h"
-#include "src/io/manifest.h"
-#include "src/simd/level.h"
+#include "icpscape/common/error.h"
+#include "icpscape/io/manifest.h"
+#include "icpscape/simd/level.h"
 
 namespace icpscape {
 namespace {

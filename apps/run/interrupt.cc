@@ -10,7 +10,7 @@
 #include <utility>
 
 #include "apps/run/app.h"
-#include "src/io/output.h"
+#include "icpscape/io/output.h"
 
 namespace icpscape {
 namespace {

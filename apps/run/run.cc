@@ -13,8 +13,8 @@
 #include "apps/run/figures.h"
 #include "apps/run/interrupt.h"
 #include "apps/run/run_flags.h"
-#include "src/common/text.h"
-#include "src/io/output.h"
+#include "icpscape/common/text.h"
+#include "icpscape/io/output.h"
 
 namespace icpscape {
 namespace {

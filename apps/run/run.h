@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "src/io/manifest.h"
+#include "icpscape/io/manifest.h"
 
 namespace icpscape {
 

@@ -4,7 +4,7 @@
 #include <gflags/gflags.h>
 
 #include "apps/run/flag.h"
-#include "src/common/parallel.h"
+#include "icpscape/common/parallel.h"
 
 static const icpscape::FlagGroup group(__FILE__, "Run", icpscape::kAside);
 

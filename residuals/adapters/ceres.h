@@ -12,8 +12,8 @@
 #include <utility>
 #include <vector>
 
-#include "residuals/dof_mask.h"
-#include "residuals/normal_equations.h"
+#include "../dof_mask.h"
+#include "../normal_equations.h"
 
 namespace icpscape {
 

@@ -1,14 +1,14 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "src/cloud/features.h"
+#include "icpscape/cloud/features.h"
 
 #include <glog/logging.h>
 
 #include <algorithm>
 #include <string>
 
-#include "src/cloud/rings.h"
-#include "src/common/error.h"
-#include "src/common/text.h"
+#include "icpscape/cloud/rings.h"
+#include "icpscape/common/error.h"
+#include "icpscape/common/text.h"
 
 namespace icpscape {
 namespace {

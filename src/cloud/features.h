@@ -5,8 +5,8 @@
 #include <cstddef>
 #include <vector>
 
-#include "src/cloud/point_cloud.h"
-#include "src/cloud/smoothness.h"
+#include "icpscape/cloud/point_cloud.h"
+#include "icpscape/cloud/smoothness.h"
 
 namespace icpscape {
 

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "src/cloud/normals.h"
+#include "icpscape/cloud/normals.h"
 
 #include <cstdint>
 #include <limits>
 
-#include "src/common/parallel.h"
+#include "icpscape/common/parallel.h"
 
 namespace icpscape {
 namespace {

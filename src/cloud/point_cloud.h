@@ -9,9 +9,9 @@
 #include <cstdint>
 #include <vector>
 
-#include "residuals/kinds.h"
-#include "residuals/lie.h"
-#include "src/neighbors/points_view.h"
+#include "icpscape/neighbors/points_view.h"
+#include "icpscape/residuals/kinds.h"
+#include "icpscape/residuals/lie.h"
 
 namespace icpscape {
 

@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "src/cloud/rings.h"
+#include "icpscape/cloud/rings.h"
 
 #include <algorithm>
 #include <cmath>
 #include <string>
 
-#include "src/common/error.h"
+#include "icpscape/common/error.h"
 
 namespace icpscape {
 namespace {

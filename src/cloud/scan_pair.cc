@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "src/cloud/scan_pair.h"
+#include "icpscape/cloud/scan_pair.h"
 
 #include <utility>
 

@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "src/cloud/scan_sequence.h"
+#include "icpscape/cloud/scan_sequence.h"
 
 #include <algorithm>
 #include <charconv>
 #include <cmath>
 
-#include "src/common/error.h"
+#include "icpscape/common/error.h"
 
 namespace icpscape {
 namespace {

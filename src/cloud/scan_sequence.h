@@ -8,9 +8,12 @@
 #include <string>
 #include <vector>
 
-#include "src/cloud/scan_pair.h"
+#include "icpscape/cloud/scan_pair.h"
 
 namespace icpscape {
+
+/// Seconds between two scans, where nothing else is known and in simulated drives.
+inline constexpr double kScanPeriodS = 0.1;
 
 /// One scan of a sequence. It is read, or simulated, when it is asked for.
 struct Scan {
@@ -40,7 +43,7 @@ struct ScanSequence {
   std::vector<Scan> scans;
   /// Seconds, one per scan, increasing; NaN for a scan without a time.
   std::vector<double> times_s;
-  bool times_are_measured = false;  ///< Else they are made up: 10 scans a second.
+  bool times_are_measured = false;  ///< Else they are made up: kScanPeriodS apart.
   /// Ground truth: the pose of the lidar at each frame, in any world. Empty where there is none; it
   /// may end before the scans do.
   std::vector<SE3d> T_world_lidar;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "src/cloud/searchable_cloud.h"
+#include "icpscape/cloud/searchable_cloud.h"
 
 #include <type_traits>
 #include <utility>

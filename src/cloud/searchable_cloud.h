@@ -10,8 +10,8 @@
 #include <utility>
 #include <vector>
 
-#include "src/cloud/point_cloud.h"
-#include "src/neighbors/neighbor_search.h"
+#include "icpscape/cloud/point_cloud.h"
+#include "icpscape/neighbors/neighbor_search.h"
 
 namespace icpscape {
 

@@ -1,16 +1,16 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "src/cloud/smoothness.h"
+#include "icpscape/cloud/smoothness.h"
 
 #include <algorithm>
 #include <cmath>
 #include <limits>
 #include <string>
 
-#include "src/cloud/rings.h"
-#include "src/common/error.h"
-#include "src/common/parallel.h"
-#include "src/common/text.h"
-#include "src/neighbors/neighbor_search.h"
+#include "icpscape/cloud/rings.h"
+#include "icpscape/common/error.h"
+#include "icpscape/common/parallel.h"
+#include "icpscape/common/text.h"
+#include "icpscape/neighbors/neighbor_search.h"
 
 namespace icpscape {
 namespace {

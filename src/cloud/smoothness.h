@@ -4,8 +4,8 @@
 
 #include <vector>
 
-#include "src/cloud/point_cloud.h"
-#include "src/common/names.h"
+#include "icpscape/cloud/point_cloud.h"
+#include "icpscape/common/names.h"
 
 namespace icpscape {
 

@@ -6,7 +6,7 @@
 
 namespace icpscape {
 
-/// The command line or an option is wrong (exit code 1).
+/// The command line, an option or an argument of a call is wrong (exit code 1).
 /// Every message is one sentence naming the place and what was expected.
 struct UsageError : std::runtime_error {
   using std::runtime_error::runtime_error;

@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "src/common/text.h"
+#include "icpscape/common/text.h"
 
 namespace icpscape {
 

@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "src/common/text.h"
+#include "icpscape/common/text.h"
 
 #include <array>
 #include <charconv>
 #include <limits>
 #include <sstream>
 
-#include "src/common/error.h"
+#include "icpscape/common/error.h"
 
 namespace icpscape {
 

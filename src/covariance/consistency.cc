@@ -1,13 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "src/covariance/consistency.h"
-
-#include <glog/logging.h>
+#include "icpscape/covariance/consistency.h"
 
 #include <Eigen/Cholesky>
 #include <boost/math/distributions/chi_squared.hpp>
 #include <cmath>
 
-#include "src/common/error.h"
+#include "icpscape/common/error.h"
 
 namespace icpscape {
 namespace {
@@ -17,12 +15,18 @@ constexpr double kTail = 0.025;
 // `count` is how many independent errors there are.
 Nees NeesOf(const std::vector<Vec6>& errors, const Vec6& center,
             const std::vector<Mat6>& covariances, double count) {
-  CHECK_EQ(errors.size(), covariances.size());
-  CHECK_GE(count, 1);
+  if (errors.empty() || errors.size() != covariances.size()) {
+    throw UsageError(std::to_string(errors.size()) + " errors and " +
+                     std::to_string(covariances.size()) +
+                     " covariances; expected as many of both, at least one.");
+  }
   double sum = 0;
   for (std::size_t i = 0; i < errors.size(); ++i) {
     const Eigen::LLT<Mat6> factor(covariances[i]);
-    CHECK(factor.info() == Eigen::Success) << "a covariance is not positive definite";
+    if (factor.info() != Eigen::Success) {
+      throw UsageError("Covariance " + std::to_string(i) +
+                       " is not positive definite; expected all of them to be.");
+    }
     sum += factor.matrixL().solve(errors[i] - center).squaredNorm();
   }
   const boost::math::chi_squared distribution(6 * count);

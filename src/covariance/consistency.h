@@ -4,7 +4,7 @@
 
 #include <vector>
 
-#include "residuals/lie.h"
+#include "icpscape/residuals/lie.h"
 
 namespace icpscape {
 
@@ -32,7 +32,8 @@ struct Nees {
 /// Average normalised estimation error squared about the truth [Bar-Shalom et al. 2001, sec.
 /// 5.4.2]:
 ///   NEES = 1/N sum xi_i^T P_i^-1 xi_i,   N NEES ~ chi-square with 6 N degrees of freedom
-/// where the P_i are right and there is no bias. One P_i (positive definite, CHECKed) per error.
+/// where the P_i are right and there is no bias. One P_i per error. Throws UsageError for other
+/// numbers of both, and where a P_i is not positive definite.
 Nees NeesAboutTruth(const std::vector<Vec6>& errors, const std::vector<Mat6>& covariances);
 
 /// The same about the errors' own mean m, so that a bias does not count:

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "src/covariance/covariance.h"
+#include "icpscape/covariance/covariance.h"
 
 #include <ceres/loss_function.h>
 
@@ -8,11 +8,11 @@
 #include <algorithm>
 #include <cmath>
 
-#include "src/common/error.h"
-#include "src/common/text.h"
-#include "src/covariance/pair_derivatives.h"
-#include "src/filtering/voxel_hash.h"
-#include "src/objective/pairs.h"
+#include "icpscape/common/error.h"
+#include "icpscape/common/text.h"
+#include "icpscape/covariance/pair_derivatives.h"
+#include "icpscape/filtering/voxel_hash.h"
+#include "icpscape/objective/pairs.h"
 
 namespace icpscape {
 namespace {

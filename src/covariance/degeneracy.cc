@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "src/covariance/degeneracy.h"
+#include "icpscape/covariance/degeneracy.h"
 
 #include <Eigen/Eigenvalues>
 #include <cmath>
 #include <limits>
 
-#include "src/common/error.h"
-#include "src/common/text.h"
-#include "src/objective/pairs.h"
+#include "icpscape/common/error.h"
+#include "icpscape/common/text.h"
+#include "icpscape/objective/pairs.h"
 
 namespace icpscape {
 namespace {

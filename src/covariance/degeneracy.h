@@ -5,8 +5,8 @@
 #include <string>
 #include <vector>
 
-#include "src/common/names.h"
-#include "src/objective/objective.h"
+#include "icpscape/common/names.h"
+#include "icpscape/objective/objective.h"
 
 namespace icpscape {
 

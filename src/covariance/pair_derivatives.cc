@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "src/covariance/pair_derivatives.h"
+#include "icpscape/covariance/pair_derivatives.h"
 
 #include <ceres/jet.h>
 #include <ceres/loss_function.h>
 
 #include <type_traits>
 
-#include "residuals/registry.h"
+#include "icpscape/residuals/registry.h"
 
 namespace icpscape {
 namespace {

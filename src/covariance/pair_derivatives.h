@@ -2,8 +2,8 @@
 #ifndef ICPSCAPE_SRC_COVARIANCE_PAIR_DERIVATIVES_H_
 #define ICPSCAPE_SRC_COVARIANCE_PAIR_DERIVATIVES_H_
 
-#include "residuals/correspondence.h"
-#include "src/objective/registered_metric.h"
+#include "icpscape/objective/registered_metric.h"
+#include "icpscape/residuals/correspondence.h"
 
 namespace ceres {
 class LossFunction;

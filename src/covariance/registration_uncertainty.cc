@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "src/covariance/registration_uncertainty.h"
+#include "icpscape/covariance/registration_uncertainty.h"
 
-#include "src/common/error.h"
+#include "icpscape/common/error.h"
 
 namespace icpscape {
 namespace {

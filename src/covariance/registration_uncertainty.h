@@ -6,9 +6,9 @@
 #include <string>
 #include <vector>
 
-#include "src/covariance/covariance.h"
-#include "src/covariance/degeneracy.h"
-#include "src/minimizer/minimizer.h"
+#include "icpscape/covariance/covariance.h"
+#include "icpscape/covariance/degeneracy.h"
+#include "icpscape/minimizer/minimizer.h"
 
 namespace icpscape {
 

@@ -2,8 +2,8 @@
 #ifndef ICPSCAPE_SRC_FILTERING_EGO_BLIND_SPOT_H_
 #define ICPSCAPE_SRC_FILTERING_EGO_BLIND_SPOT_H_
 
-#include "src/cloud/point_cloud.h"
-#include "src/filtering/kept_points.h"
+#include "icpscape/cloud/point_cloud.h"
+#include "icpscape/filtering/kept_points.h"
 
 namespace icpscape {
 

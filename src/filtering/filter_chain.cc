@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "src/filtering/filter_chain.h"
+#include "icpscape/filtering/filter_chain.h"
 
 #include <algorithm>
 
-#include "src/common/error.h"
-#include "src/filtering/ego_blind_spot.h"
-#include "src/filtering/octree_correspondence_filter.h"
+#include "icpscape/common/error.h"
+#include "icpscape/filtering/ego_blind_spot.h"
+#include "icpscape/filtering/octree_correspondence_filter.h"
 
 namespace icpscape {
 namespace {

@@ -5,8 +5,8 @@
 #include <functional>
 #include <string>
 
-#include "src/cloud/point_cloud.h"
-#include "src/filtering/kept_points.h"
+#include "icpscape/cloud/point_cloud.h"
+#include "icpscape/filtering/kept_points.h"
 
 namespace icpscape {
 

@@ -7,7 +7,7 @@
 #include <functional>
 #include <vector>
 
-#include "src/cloud/point_cloud.h"
+#include "icpscape/cloud/point_cloud.h"
 
 namespace icpscape {
 

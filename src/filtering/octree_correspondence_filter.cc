@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "src/filtering/octree_correspondence_filter.h"
+#include "icpscape/filtering/octree_correspondence_filter.h"
 
 #include <cstdint>
 #include <utility>
 
-#include "src/filtering/voxel_hash.h"
+#include "icpscape/filtering/voxel_hash.h"
 
 namespace icpscape {
 

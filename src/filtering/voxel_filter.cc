@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "src/filtering/voxel_filter.h"
+#include "icpscape/filtering/voxel_filter.h"
 
 #include <cstddef>
 #include <cstdint>
 #include <vector>
 
-#include "src/filtering/voxel_hash.h"
+#include "icpscape/filtering/voxel_hash.h"
 
 namespace icpscape {
 namespace {

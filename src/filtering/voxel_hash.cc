@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "src/filtering/voxel_hash.h"
+#include "icpscape/filtering/voxel_hash.h"
 
 #include <cmath>
 #include <string>
 
-#include "src/common/error.h"
-#include "src/common/text.h"
+#include "icpscape/common/error.h"
+#include "icpscape/common/text.h"
 
 namespace icpscape {
 

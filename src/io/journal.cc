@@ -1,8 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "src/io/journal.h"
+#include "icpscape/io/journal.h"
 
 #include <fcntl.h>
-#include <glog/logging.h>
 #include <sys/file.h>
 #include <unistd.h>
 
@@ -10,8 +9,8 @@
 #include <iterator>
 #include <utility>
 
-#include "src/common/error.h"
-#include "src/io/sha256.h"
+#include "icpscape/common/error.h"
+#include "icpscape/io/sha256.h"
 
 namespace icpscape {
 namespace {
@@ -43,11 +42,17 @@ std::string Difference(const std::string& was, const std::string& is) {
   return part(was, begin) + ", now " + part(is, begin);
 }
 
+void RequireOneLine(const std::string& record) {
+  if (record.find('\n') != std::string::npos) {
+    throw UsageError("A journal's record has a line feed; expected one line: " + record);
+  }
+}
+
 }  // namespace
 
 Journal::Journal(std::filesystem::path path, const std::string& header, Begin begin)
     : path_(std::move(path)) {
-  CHECK(header.find('\n') == std::string::npos);
+  RequireOneLine(header);
   file_ = open(path_.c_str(), O_RDWR | O_CREAT | O_CLOEXEC, 0666);
   if (file_ < 0) {
     ThrowUnwritable(path_);
@@ -108,7 +113,7 @@ void Journal::Load(const std::string& header) {
 }
 
 void Journal::Append(const std::string& record) {
-  CHECK(record.find('\n') == std::string::npos);
+  RequireOneLine(record);
   const std::string line = Line(checksum_, record) + "\n";
   if (write(file_, line.data(), line.size()) != static_cast<ssize_t>(line.size())) {
     throw InputError(path_.string() + ": cannot be written; expected a disk with space.");

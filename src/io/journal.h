@@ -33,7 +33,7 @@ class Journal {
   /// Those after the header, of this run and those before.
   const std::vector<std::string>& records() const { return records_; }
 
-  /// The record must be without line feeds (CHECKed). Throws InputError where it cannot be written.
+  /// Throws InputError where the record cannot be written, UsageError where it has a line feed.
   void Append(const std::string& record);
 
  private:

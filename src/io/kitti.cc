@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "src/io/kitti.h"
+#include "icpscape/io/kitti.h"
 
 #include <array>
 #include <cstdint>
@@ -8,8 +8,8 @@
 #include <fstream>
 #include <sstream>
 
-#include "src/common/error.h"
-#include "src/io/transform.h"
+#include "icpscape/common/error.h"
+#include "icpscape/io/transform.h"
 
 namespace icpscape {
 namespace {

@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "src/cloud/point_cloud.h"
+#include "icpscape/cloud/point_cloud.h"
 
 namespace icpscape {
 

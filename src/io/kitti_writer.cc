@@ -1,15 +1,14 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "src/io/kitti_writer.h"
-
-#include <glog/logging.h>
+#include "icpscape/io/kitti_writer.h"
 
 #include <cstdint>
 #include <fstream>
 
-#include "src/io/kitti.h"
-#include "src/io/output.h"
-#include "src/io/trajectory.h"
-#include "src/io/transform.h"
+#include "icpscape/common/error.h"
+#include "icpscape/io/kitti.h"
+#include "icpscape/io/output.h"
+#include "icpscape/io/trajectory.h"
+#include "icpscape/io/transform.h"
 
 namespace icpscape {
 namespace {
@@ -25,6 +24,14 @@ void WriteBinary(const std::filesystem::path& path, const std::vector<T>& values
   });
 }
 
+void RequireAll(const std::filesystem::path& path, std::size_t size, const PointCloud& cloud,
+                const std::string& what) {
+  if (size != cloud.size()) {
+    throw UsageError(path.string() + ": " + std::to_string(size) + " " + what + "s for " +
+                     std::to_string(cloud.size()) + " points; expected one for each.");
+  }
+}
+
 }  // namespace
 
 void WriteVelodyne(const std::filesystem::path& path, const PointCloud& cloud) {
@@ -38,12 +45,12 @@ void WriteVelodyne(const std::filesystem::path& path, const PointCloud& cloud) {
 }
 
 void WriteLabels(const std::filesystem::path& path, const PointCloud& cloud) {
-  CHECK_EQ(cloud.label.size(), cloud.size());
+  RequireAll(path, cloud.label.size(), cloud, "label");
   WriteBinary(path, cloud.label);
 }
 
 void WriteRings(const std::filesystem::path& path, const PointCloud& cloud) {
-  CHECK_EQ(cloud.ring.size(), cloud.size());
+  RequireAll(path, cloud.ring.size(), cloud, "ring");
   WriteBinary(path, std::vector<std::uint8_t>(cloud.ring.begin(), cloud.ring.end()));
 }
 

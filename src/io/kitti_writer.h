@@ -5,7 +5,7 @@
 #include <filesystem>
 #include <vector>
 
-#include "src/cloud/point_cloud.h"
+#include "icpscape/cloud/point_cloud.h"
 
 namespace icpscape {
 
@@ -15,10 +15,11 @@ namespace icpscape {
 void WriteVelodyne(const std::filesystem::path& path, const PointCloud& cloud);
 
 /// SemanticKITTI's labels/NNNNNN.label: little-endian uint32 per point, semantic class in the lower
-/// 16 bits, instance in the upper.
+/// 16 bits, instance in the upper. Throws UsageError where the points have no labels.
 void WriteLabels(const std::filesystem::path& path, const PointCloud& cloud);
 
-/// rings/NNNNNN.ring: one byte per point, the ring it was measured by, 0 the uppermost.
+/// rings/NNNNNN.ring: one byte per point, the ring it was measured by, 0 the uppermost. Throws
+/// UsageError where the points have no rings.
 void WriteRings(const std::filesystem::path& path, const PointCloud& cloud);
 
 /// poses/SS.txt from lidar poses: rows P_i = Tr T_0^-1 T_i Tr^-1, 3x4 row-major, camera frame, the

@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "src/io/manifest.h"
+#include "icpscape/io/manifest.h"
 
 #include <fstream>
 #include <nlohmann/json.hpp>
 
+#include "icpscape/common/text.h"
+#include "icpscape/io/output.h"
+#include "icpscape/io/sha256.h"
 #include "icpscape_version.h"
-#include "src/common/text.h"
-#include "src/io/output.h"
-#include "src/io/sha256.h"
 
 namespace icpscape {
 namespace {

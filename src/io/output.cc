@@ -1,14 +1,13 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "src/io/output.h"
+#include "icpscape/io/output.h"
 
-#include <glog/logging.h>
 #include <unistd.h>
 
 #include <fstream>
 #include <system_error>
 
-#include "src/common/error.h"
-#include "src/common/text.h"
+#include "icpscape/common/error.h"
+#include "icpscape/common/text.h"
 
 namespace icpscape {
 
@@ -65,7 +64,11 @@ void PrepareOutputFolder(const std::filesystem::path& folder) {
 }
 
 void Table::AddRow(std::vector<std::string> cells) {
-  CHECK_EQ(cells.size(), columns_.size());
+  if (cells.size() != columns_.size()) {
+    throw UsageError("A row of " + std::to_string(cells.size()) +
+                     " cells; expected one for each of " + std::to_string(columns_.size()) +
+                     " columns.");
+  }
   rows_.push_back(std::move(cells));
 }
 

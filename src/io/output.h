@@ -32,7 +32,7 @@ void PrepareOutputFolder(const std::filesystem::path& folder);
 class Table {
  public:
   explicit Table(std::vector<std::string> columns) : columns_(std::move(columns)) {}
-  /// One cell per column (CHECKed).
+  /// One cell per column. Throws UsageError.
   void AddRow(std::vector<std::string> cells);
   void WriteCsv(const std::filesystem::path& path) const { Write(path, ","); }
   void WritePgfplots(const std::filesystem::path& path) const { Write(path, " "); }

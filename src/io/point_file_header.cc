@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "src/io/point_file_header.h"
+#include "icpscape/io/point_file_header.h"
 
 #include <array>
 #include <cstdint>

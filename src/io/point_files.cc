@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "src/io/point_files.h"
+#include "icpscape/io/point_files.h"
 
 #include <pcl/PCLPointCloud2.h>
 #include <pcl/common/io.h>
@@ -11,10 +11,10 @@
 
 #include <string>
 
-#include "src/common/error.h"
-#include "src/io/kitti.h"
-#include "src/io/output.h"
-#include "src/io/point_file_header.h"
+#include "icpscape/common/error.h"
+#include "icpscape/io/kitti.h"
+#include "icpscape/io/output.h"
+#include "icpscape/io/point_file_header.h"
 
 namespace icpscape {
 namespace {

@@ -4,7 +4,7 @@
 
 #include <filesystem>
 
-#include "src/cloud/point_cloud.h"
+#include "icpscape/cloud/point_cloud.h"
 
 namespace icpscape {
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "src/io/sequences.h"
+#include "icpscape/io/sequences.h"
 
 #include <algorithm>
 #include <cmath>
@@ -9,10 +9,10 @@
 #include <numeric>
 #include <set>
 
-#include "src/common/error.h"
-#include "src/common/text.h"
-#include "src/io/kitti.h"
-#include "src/io/point_files.h"
+#include "icpscape/common/error.h"
+#include "icpscape/common/text.h"
+#include "icpscape/io/kitti.h"
+#include "icpscape/io/point_files.h"
 
 namespace icpscape {
 namespace {
@@ -67,12 +67,11 @@ Scan FileOf(const std::filesystem::path& path) {
 // Line `lines[i]` of the file's times is that of scan i; made up where there is no such file.
 void SetTimes(const std::filesystem::path& file, const std::vector<double>& times,
               const std::vector<std::size_t>& lines, ScanSequence* sequence) {
-  constexpr double kPeriod_s = 0.1;
   sequence->times_file = file;
   sequence->times_are_measured = !times.empty();
   for (const std::size_t line : lines) {
     if (times.empty()) {
-      sequence->times_s.push_back(static_cast<double>(line) * kPeriod_s);
+      sequence->times_s.push_back(static_cast<double>(line) * kScanPeriodS);
     } else {
       sequence->times_s.push_back(line < times.size() ? times[line]
                                                       : std::numeric_limits<double>::quiet_NaN());

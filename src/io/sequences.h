@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "src/cloud/scan_sequence.h"
+#include "icpscape/cloud/scan_sequence.h"
 
 namespace icpscape {
 

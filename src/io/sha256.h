@@ -5,7 +5,7 @@
 #include <filesystem>
 #include <string>
 
-#include "src/cloud/point_cloud.h"
+#include "icpscape/cloud/point_cloud.h"
 
 namespace icpscape {
 

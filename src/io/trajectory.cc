@@ -1,7 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "src/io/trajectory.h"
-
-#include <glog/logging.h>
+#include "icpscape/io/trajectory.h"
 
 #include <array>
 #include <cmath>
@@ -10,11 +8,11 @@
 #include <sstream>
 #include <string>
 
-#include "src/common/error.h"
-#include "src/common/text.h"
-#include "src/io/kitti.h"
-#include "src/io/output.h"
-#include "src/io/transform.h"
+#include "icpscape/common/error.h"
+#include "icpscape/common/text.h"
+#include "icpscape/io/kitti.h"
+#include "icpscape/io/output.h"
+#include "icpscape/io/transform.h"
 
 namespace icpscape {
 namespace {
@@ -133,7 +131,11 @@ void WriteKittiTrajectory(const std::filesystem::path& path,
 }
 
 void WriteTumTrajectory(const std::filesystem::path& path, const Trajectory& trajectory) {
-  CHECK_EQ(trajectory.times_s.size(), trajectory.T_world_body.size());
+  if (trajectory.times_s.size() != trajectory.T_world_body.size()) {
+    throw UsageError(path.string() + ": " + std::to_string(trajectory.times_s.size()) +
+                     " times for " + std::to_string(trajectory.T_world_body.size()) +
+                     " poses; expected one for each, as the format of TUM asks.");
+  }
   std::string text = "# timestamp tx ty tz qx qy qz qw\n";
   for (std::size_t i = 0; i < trajectory.times_s.size(); ++i) {
     const Vec3& t = trajectory.T_world_body[i].t();

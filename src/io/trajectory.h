@@ -5,16 +5,9 @@
 #include <filesystem>
 #include <vector>
 
-#include "residuals/lie.h"
+#include "icpscape/cloud/trajectory.h"
 
 namespace icpscape {
-
-/// Poses T_world_body in the order of their frames; body is what the file is about: the left camera
-/// in KITTI's, often the lidar in ours.
-struct Trajectory {
-  std::vector<SE3d> T_world_body;
-  std::vector<double> times_s;  ///< One per pose, increasing; empty where the file has none.
-};
 
 /// Reads either format; the columns of the first row decide:
 ///   12, KITTI: the upper 3x4 of T_world_body, row-major; no times;
@@ -28,7 +21,7 @@ Trajectory ReadTrajectory(const std::filesystem::path& path);
 /// are normalised on reading). Throws InputError where the file cannot be written.
 void WriteKittiTrajectory(const std::filesystem::path& path, const std::vector<SE3d>& T_world_body);
 
-/// TUM's format, as above. The trajectory must have times (CHECKed).
+/// TUM's format, as above. Throws UsageError where the trajectory has no times.
 void WriteTumTrajectory(const std::filesystem::path& path, const Trajectory& trajectory);
 
 }  // namespace icpscape

@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "src/io/transform.h"
+#include "icpscape/io/transform.h"
 
 #include <fstream>
 #include <iterator>
 #include <sstream>
 #include <vector>
 
-#include "src/common/error.h"
-#include "src/common/text.h"
+#include "icpscape/common/error.h"
+#include "icpscape/common/text.h"
 
 namespace icpscape {
 namespace {

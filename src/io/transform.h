@@ -5,7 +5,7 @@
 #include <filesystem>
 #include <string>
 
-#include "residuals/lie.h"
+#include "icpscape/residuals/lie.h"
 
 namespace icpscape {
 

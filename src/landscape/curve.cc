@@ -1,14 +1,14 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "src/landscape/curve.h"
+#include "icpscape/landscape/curve.h"
 
 #include <algorithm>
 #include <cmath>
 #include <mutex>
 
-#include "src/common/error.h"
-#include "src/common/parallel.h"
-#include "src/common/text.h"
-#include "src/objective/pass.h"
+#include "icpscape/common/error.h"
+#include "icpscape/common/parallel.h"
+#include "icpscape/common/text.h"
+#include "icpscape/objective/pass.h"
 
 namespace icpscape {
 namespace {

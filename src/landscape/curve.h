@@ -7,9 +7,9 @@
 #include <string>
 #include <vector>
 
-#include "src/common/names.h"
-#include "src/landscape/path.h"
-#include "src/objective/objective.h"
+#include "icpscape/common/names.h"
+#include "icpscape/landscape/path.h"
+#include "icpscape/objective/objective.h"
 
 namespace icpscape {
 

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "src/landscape/path.h"
+#include "icpscape/landscape/path.h"
 
 #include <cmath>
 
-#include "src/common/text.h"
-#include "src/common/vehicle.h"
+#include "icpscape/common/text.h"
+#include "icpscape/common/vehicle.h"
 
 namespace icpscape {
 namespace {

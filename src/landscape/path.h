@@ -5,8 +5,8 @@
 #include <string>
 #include <vector>
 
-#include "residuals/lie.h"
-#include "src/common/names.h"
+#include "icpscape/common/names.h"
+#include "icpscape/residuals/lie.h"
 
 namespace icpscape {
 

@@ -2,7 +2,7 @@
 #ifndef ICPSCAPE_SRC_LANDSCAPE_PATH_PROJECTION_H_
 #define ICPSCAPE_SRC_LANDSCAPE_PATH_PROJECTION_H_
 
-#include "src/landscape/path.h"
+#include "icpscape/landscape/path.h"
 
 namespace icpscape {
 

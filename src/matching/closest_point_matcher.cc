@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "src/matching/closest_point_matcher.h"
+#include "icpscape/matching/closest_point_matcher.h"
 
 #include <limits>
 #include <utility>
 #include <vector>
 
-#include "src/neighbors/moved_points.h"
+#include "icpscape/neighbors/moved_points.h"
 
 namespace icpscape {
 

@@ -4,8 +4,8 @@
 
 #include <optional>
 
-#include "src/matching/matcher.h"
-#include "src/matching/rejection.h"
+#include "icpscape/matching/matcher.h"
+#include "icpscape/matching/rejection.h"
 
 namespace icpscape {
 

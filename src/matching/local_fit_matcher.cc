@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "src/matching/local_fit_matcher.h"
+#include "icpscape/matching/local_fit_matcher.h"
 
 #include <algorithm>
 #include <utility>
 
-#include "src/common/error.h"
-#include "src/common/text.h"
-#include "src/neighbors/moved_points.h"
+#include "icpscape/common/error.h"
+#include "icpscape/common/text.h"
+#include "icpscape/neighbors/moved_points.h"
 
 namespace icpscape {
 

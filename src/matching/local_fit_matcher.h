@@ -5,8 +5,8 @@
 #include <string>
 #include <vector>
 
-#include "src/common/names.h"
-#include "src/matching/matcher.h"
+#include "icpscape/common/names.h"
+#include "icpscape/matching/matcher.h"
 
 namespace icpscape {
 

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "src/matching/matcher.h"
+#include "icpscape/matching/matcher.h"
 
 #include <algorithm>
 
-#include "src/common/parallel.h"
+#include "icpscape/common/parallel.h"
 
 namespace icpscape {
 

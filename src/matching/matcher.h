@@ -6,8 +6,8 @@
 #include <utility>
 #include <vector>
 
-#include "residuals/correspondence.h"
-#include "src/cloud/searchable_cloud.h"
+#include "icpscape/cloud/searchable_cloud.h"
+#include "icpscape/residuals/correspondence.h"
 
 namespace icpscape {
 

@@ -6,9 +6,9 @@
 #include <optional>
 #include <vector>
 
-#include "src/matching/closest_point_matcher.h"
-#include "src/matching/local_fit_matcher.h"
-#include "src/matching/metric_clouds.h"
+#include "icpscape/matching/closest_point_matcher.h"
+#include "icpscape/matching/local_fit_matcher.h"
+#include "icpscape/matching/metric_clouds.h"
 
 namespace icpscape {
 

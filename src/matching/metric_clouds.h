@@ -4,7 +4,7 @@
 
 #include <optional>
 
-#include "src/cloud/searchable_cloud.h"
+#include "icpscape/cloud/searchable_cloud.h"
 
 namespace icpscape {
 

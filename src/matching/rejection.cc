@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "src/matching/rejection.h"
+#include "icpscape/matching/rejection.h"
 
 #include <algorithm>
 #include <array>
@@ -8,10 +8,10 @@
 #include <map>
 #include <string>
 
-#include "src/common/error.h"
-#include "src/common/parallel.h"
-#include "src/common/text.h"
-#include "src/neighbors/moved_points.h"
+#include "icpscape/common/error.h"
+#include "icpscape/common/parallel.h"
+#include "icpscape/common/text.h"
+#include "icpscape/neighbors/moved_points.h"
 
 namespace icpscape {
 namespace {

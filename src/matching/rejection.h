@@ -2,8 +2,8 @@
 #ifndef ICPSCAPE_SRC_MATCHING_REJECTION_H_
 #define ICPSCAPE_SRC_MATCHING_REJECTION_H_
 
-#include "src/cloud/point_cloud.h"
-#include "src/matching/matcher.h"
+#include "icpscape/cloud/point_cloud.h"
+#include "icpscape/matching/matcher.h"
 
 namespace icpscape {
 

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "src/minimizer/ground_truth_check.h"
+#include "icpscape/minimizer/ground_truth_check.h"
 
-#include "src/common/error.h"
-#include "src/matching/closest_point_matcher.h"
+#include "icpscape/common/error.h"
+#include "icpscape/matching/closest_point_matcher.h"
 
 namespace icpscape {
 

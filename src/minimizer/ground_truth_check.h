@@ -2,7 +2,7 @@
 #ifndef ICPSCAPE_SRC_MINIMIZER_GROUND_TRUTH_CHECK_H_
 #define ICPSCAPE_SRC_MINIMIZER_GROUND_TRUTH_CHECK_H_
 
-#include "src/minimizer/minimizer.h"
+#include "icpscape/minimizer/minimizer.h"
 
 namespace icpscape {
 

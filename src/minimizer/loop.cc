@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "src/minimizer/loop.h"
+#include "icpscape/minimizer/loop.h"
 
 #include <Eigen/Eigenvalues>
 #include <cmath>
 #include <tuple>
 
-#include "src/common/text.h"
+#include "icpscape/common/text.h"
 
 namespace icpscape::internal {
 namespace {

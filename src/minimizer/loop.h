@@ -8,7 +8,7 @@
 #include <utility>
 #include <vector>
 
-#include "src/minimizer/minimizer.h"
+#include "icpscape/minimizer/minimizer.h"
 
 namespace icpscape::internal {
 

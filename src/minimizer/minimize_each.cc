@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "src/minimizer/minimize_each.h"
+#include "icpscape/minimizer/minimize_each.h"
 
 namespace icpscape {
 
@@ -7,8 +7,7 @@ std::vector<MetricIterates> MinimizeEach(const std::vector<Objective>& objective
                                          const SE3d& T_start, const MinimizerOptions& options) {
   std::vector<MetricIterates> all;
   for (const Objective& objective : objectives) {
-    all.push_back(
-        {objective.metric().name, Minimize(JointObjective({{&objective, 1.0}}), T_start, options)});
+    all.push_back({objective.metric().name, Minimize(objective, T_start, options)});
   }
   return all;
 }

@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "src/minimizer/minimizer.h"
+#include "icpscape/minimizer/minimizer.h"
 
 namespace icpscape {
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "src/minimizer/minimizer.h"
+#include "icpscape/minimizer/minimizer.h"
 
 #include <ceres/iteration_callback.h>
 #include <ceres/problem.h>
@@ -12,9 +12,10 @@
 #include <limits>
 #include <utility>
 
-#include "residuals/adapters/ceres.h"
-#include "src/common/parallel.h"
-#include "src/minimizer/loop.h"
+#include "icpscape/common/error.h"
+#include "icpscape/common/parallel.h"
+#include "icpscape/minimizer/loop.h"
+#include "icpscape/residuals/adapters/ceres.h"
 
 namespace icpscape {
 namespace {
@@ -226,7 +227,9 @@ MinimizerSummary MinimizeEveryEvaluation(Parameters x, Loop loop) {
 
 MinimizerSummary Minimize(const JointObjective& objective, const SE3d& T_start,
                           const MinimizerOptions& options) {
-  CHECK(options.free != DofMask{}) << "no direction is free";
+  if (options.free == DofMask{}) {
+    throw UsageError("No direction is free; expected at least one.");
+  }
   const Parameters x = ToParameters(T_start);
   Loop loop(objective, options);
   return options.reassociation == Reassociation::kEveryStep

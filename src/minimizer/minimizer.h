@@ -6,9 +6,9 @@
 #include <string>
 #include <vector>
 
-#include "residuals/dof_mask.h"
-#include "src/common/names.h"
-#include "src/objective/joint_objective.h"
+#include "icpscape/common/names.h"
+#include "icpscape/objective/joint_objective.h"
+#include "icpscape/residuals/dof_mask.h"
 
 namespace icpscape {
 
@@ -65,7 +65,7 @@ struct MinimizerOptions {
   double min_cost_change = 0;
   /// Ends where the cost is this or less [the paper's "falls below threshold", sec. 2].
   double max_final_cost = 0;
-  /// Directions in which the source may move; at least one (CHECKed).
+  /// Directions in which the source may move; at least one.
   DofMask free = kAllDof;
   Observer observer = nullptr;
   int threads = 1;
@@ -89,6 +89,11 @@ struct Names<Termination> {
                                            "no_correspondences", "failure"};
 };
 
+/// Whether the pose where it ended is a result.
+inline bool IsUsable(Termination termination) {
+  return termination != Termination::kNoCorrespondences && termination != Termination::kFailure;
+}
+
 struct MinimizerSummary {
   /// The first is the start, the last the result.
   std::vector<Iterate> iterates;
@@ -96,9 +101,7 @@ struct MinimizerSummary {
   std::string message;  ///< One sentence.
   int matching_passes = 0;
 
-  bool Usable() const {
-    return termination != Termination::kNoCorrespondences && termination != Termination::kFailure;
-  }
+  bool Usable() const { return IsUsable(termination); }
   /// The result and its cost: the re-associated objective's value at that pose.
   const SE3d& T_target_source() const { return iterates.back().T_target_source; }
   double final_cost() const { return iterates.back().cost; }

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "src/minimizer/random_starts.h"
+#include "icpscape/minimizer/random_starts.h"
 
 #include <mutex>
 #include <random>
 
-#include "src/common/parallel.h"
+#include "icpscape/common/parallel.h"
 
 namespace icpscape {
 namespace {

@@ -6,7 +6,7 @@
 #include <functional>
 #include <vector>
 
-#include "src/minimizer/minimizer.h"
+#include "icpscape/minimizer/minimizer.h"
 
 namespace icpscape {
 

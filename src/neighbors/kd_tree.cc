@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "src/neighbors/kd_tree.h"
+#include "icpscape/neighbors/kd_tree.h"
 
 #include <algorithm>
 #include <cmath>
 #include <limits>
 #include <string>
 
-#include "src/common/error.h"
-#include "src/common/parallel.h"
+#include "icpscape/common/error.h"
+#include "icpscape/common/parallel.h"
 
 namespace icpscape {
 namespace {

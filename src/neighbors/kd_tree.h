@@ -4,8 +4,8 @@
 
 #include <vector>
 
-#include "src/neighbors/kd_tree_view.h"
-#include "src/neighbors/points_view.h"
+#include "icpscape/neighbors/kd_tree_view.h"
+#include "icpscape/neighbors/points_view.h"
 
 namespace icpscape {
 

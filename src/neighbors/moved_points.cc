@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "src/neighbors/moved_points.h"
+#include "icpscape/neighbors/moved_points.h"
 
-#include "src/neighbors/search_kernels.h"
+#include "icpscape/neighbors/search_kernels.h"
 
 namespace icpscape {
 

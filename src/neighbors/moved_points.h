@@ -4,8 +4,8 @@
 
 #include <vector>
 
-#include "residuals/lie.h"
-#include "src/neighbors/points_view.h"
+#include "icpscape/neighbors/points_view.h"
+#include "icpscape/residuals/lie.h"
 
 namespace icpscape {
 

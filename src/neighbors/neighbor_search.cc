@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "src/neighbors/neighbor_search.h"
+#include "icpscape/neighbors/neighbor_search.h"
 
 #include <algorithm>
 #include <atomic>
 #include <limits>
 
-#include "src/neighbors/kd_tree.h"
-#include "src/neighbors/search_kernels.h"
+#include "icpscape/neighbors/kd_tree.h"
+#include "icpscape/neighbors/search_kernels.h"
 
 namespace icpscape {
 namespace {

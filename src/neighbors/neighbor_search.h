@@ -7,8 +7,8 @@
 #include <memory>
 #include <vector>
 
-#include "src/neighbors/neighborhoods.h"
-#include "src/neighbors/points_view.h"
+#include "icpscape/neighbors/neighborhoods.h"
+#include "icpscape/neighbors/points_view.h"
 
 namespace icpscape {
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "src/neighbors/search_kernels.h"
+#include "icpscape/neighbors/search_kernels.h"
 
 namespace icpscape {
 

@@ -5,9 +5,9 @@
 #include <cstddef>
 #include <cstdint>
 
-#include "src/neighbors/kd_tree_view.h"
-#include "src/neighbors/points_view.h"
-#include "src/simd/level.h"
+#include "icpscape/neighbors/kd_tree_view.h"
+#include "icpscape/neighbors/points_view.h"
+#include "icpscape/simd/level.h"
 
 namespace icpscape {
 

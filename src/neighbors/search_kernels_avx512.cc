@@ -2,4 +2,4 @@
 // Compiled only for this level; see CMakeLists.txt.
 #define ICPSCAPE_SIMD_LEVEL avx512
 #define ICPSCAPE_SIMD_WIDTH 16
-#include "src/neighbors/search_kernels.inc"
+#include "icpscape/neighbors/search_kernels.inc"

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "src/objective/block_kernels.h"
+#include "icpscape/objective/block_kernels.h"
 
 namespace icpscape {
 

@@ -4,8 +4,8 @@
 
 #include <cstddef>
 
-#include "src/objective/block_values.h"
-#include "src/simd/level.h"
+#include "icpscape/objective/block_values.h"
+#include "icpscape/simd/level.h"
 
 namespace icpscape {
 

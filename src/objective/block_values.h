@@ -5,7 +5,7 @@
 #include <cstddef>
 #include <type_traits>
 
-#include "residuals/correspondence.h"
+#include "icpscape/residuals/correspondence.h"
 
 namespace icpscape {
 

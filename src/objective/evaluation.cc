@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "src/objective/evaluation.h"
+#include "icpscape/objective/evaluation.h"
 
 #include <cmath>
 

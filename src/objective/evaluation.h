@@ -2,8 +2,8 @@
 #ifndef ICPSCAPE_SRC_OBJECTIVE_EVALUATION_H_
 #define ICPSCAPE_SRC_OBJECTIVE_EVALUATION_H_
 
-#include "residuals/normal_equations.h"
-#include "src/objective/block_kernels.h"
+#include "icpscape/objective/block_kernels.h"
+#include "icpscape/residuals/normal_equations.h"
 
 namespace icpscape {
 

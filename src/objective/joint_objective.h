@@ -4,9 +4,10 @@
 
 #include <memory>
 #include <string>
+#include <utility>
 #include <vector>
 
-#include "src/objective/pass.h"
+#include "icpscape/objective/pass.h"
 
 namespace icpscape {
 
@@ -14,16 +15,12 @@ namespace icpscape {
 /// distances [paper sec. 2.4]: cost = sum_k w_k cost_k. One objective of weight 1 is itself.
 class JointObjective {
  public:
-  struct Term {
-    const Objective* objective;  ///< Must outlive the sum.
-    double weight = 1;
-  };
-
   /// Not explicit: an objective is a joint objective of one term.
-  JointObjective(const Objective& objective)  // NOLINT(google-explicit-constructor)
-      : JointObjective(std::vector<Term>{{&objective, 1.0}}) {}
-  /// Throws UsageError unless all weights are positive.
-  explicit JointObjective(std::vector<Term> terms);
+  JointObjective(Objective objective)  // NOLINT(google-explicit-constructor)
+      : JointObjective(std::vector<Objective>{std::move(objective)}, {}) {}
+  /// One positive weight for each objective, or none: then each is 1. The objectives' matchers must
+  /// outlive the sum. Throws UsageError.
+  JointObjective(std::vector<Objective> objectives, std::vector<double> weights);
   ~JointObjective();
   JointObjective(JointObjective&&) noexcept;
   JointObjective& operator=(JointObjective&&) noexcept;
@@ -49,9 +46,11 @@ class JointObjective {
  private:
   Evaluation WeightedSum(const std::vector<Evaluation>& evaluations) const;
 
-  std::vector<Term> terms_;
-  std::vector<const Objective*> objectives_;                         // Those of the terms.
-  std::vector<std::unique_ptr<ceres::LossFunction>> scaled_losses_;  // One per term.
+  // One of each per objective.
+  std::vector<Objective> objectives_;
+  std::vector<double> weights_;
+  std::vector<const Objective*> pointers_;
+  std::vector<std::unique_ptr<ceres::LossFunction>> scaled_losses_;
 };
 
 }  // namespace icpscape

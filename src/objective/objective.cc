@@ -1,15 +1,15 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "src/objective/objective.h"
+#include "icpscape/objective/objective.h"
 
 #include <ceres/loss_function.h>
 #include <ceres/problem.h>
-#include <glog/logging.h>
 
 #include <cmath>
 #include <utility>
 
-#include "src/objective/pass.h"
-#include "src/simd/level.h"
+#include "icpscape/common/error.h"
+#include "icpscape/objective/pass.h"
+#include "icpscape/simd/level.h"
 
 namespace icpscape {
 namespace {
@@ -46,15 +46,18 @@ Objective::Objective(const RegisteredMetric& metric, const Matcher& matcher,
   if (loss_ == nullptr && metric.epsilon == Epsilon::kSoftNorm) {
     loss_ = std::make_shared<ceres::SoftLOneLoss>(1);
   }
-  CHECK_EQ(metric.needs & ~matcher.Provides(), 0U)
-      << metric.name << " needs more than its matcher provides";
+  if ((metric.needs & ~matcher.Provides()) != 0) {
+    throw UsageError(metric.name +
+                     " needs more than its matcher provides; expected another matcher.");
+  }
   ForEachQuantity<double>([&](auto row) {
     using Row = decltype(row);
     if constexpr (Row::kCanBeMissing) {
       const PointCloud& cloud = Row::kInSourceFrame ? matcher.source() : matcher.target();
-      CHECK(!Row::IsNeededBy(metric.needs) || cloud.Carries(typename Row::Kind()))
-          << metric.name << " needs " << NeedsText(Row::kNeed) << "; the "
-          << (Row::kInSourceFrame ? "source" : "target") << " cloud has none";
+      if (Row::IsNeededBy(metric.needs) && !cloud.Carries(typename Row::Kind())) {
+        throw UsageError(metric.name + " needs " + NeedsText(Row::kNeed) + "; the " +
+                         (Row::kInSourceFrame ? "source" : "target") + " cloud has none.");
+      }
     }
   });
 }

@@ -5,10 +5,10 @@
 #include <memory>
 #include <string>
 
-#include "src/matching/matcher.h"
-#include "src/objective/evaluation.h"
-#include "src/objective/pair_block.h"
-#include "src/objective/registered_metric.h"
+#include "icpscape/matching/matcher.h"
+#include "icpscape/objective/evaluation.h"
+#include "icpscape/objective/pair_block.h"
+#include "icpscape/objective/registered_metric.h"
 
 namespace ceres {
 class LossFunction;
@@ -25,7 +25,7 @@ namespace icpscape {
 /// for any number of threads, and safe from several threads at once.
 class Objective {
  public:
-  /// The matcher must provide what the metric needs, and the clouds the normals (CHECKed). Without
+  /// Throws UsageError where the matcher or the clouds lack what the metric needs. Without
   /// a loss, a metric whose printed form is one (planar_to_patch: SoftLOneLoss(1)) keeps that. Runs
   /// at the SIMD level that is active now.
   Objective(const RegisteredMetric& metric, const Matcher& matcher,
@@ -33,6 +33,11 @@ class Objective {
   /// By name. Throws UsageError for an unknown metric (the message lists the known ones).
   Objective(const std::string& metric, const Matcher& matcher,
             std::shared_ptr<const ceres::LossFunction> loss = nullptr);
+  /// The matcher would die at once.
+  Objective(const RegisteredMetric& metric, const Matcher&& matcher,
+            std::shared_ptr<const ceres::LossFunction> loss = nullptr) = delete;
+  Objective(const std::string& metric, const Matcher&& matcher,
+            std::shared_ptr<const ceres::LossFunction> loss = nullptr) = delete;
 
   const RegisteredMetric& metric() const { return *metric_; }
   const Matcher& matcher() const { return *matcher_; }
@@ -42,7 +47,7 @@ class Objective {
   Matches Match(const SE3d& T_target_source, int threads) const;
 
   /// Frozen: the sums over these matches at this pose. Pairs without a valid normal, where the
-  /// metric needs one, are left out.
+  /// metric needs one, are left out. Throws UsageError for matches of another source.
   Evaluation Evaluate(const SE3d& T_target_source, const Matches& matches, int threads) const;
 
   /// Re-associated: matched at this pose and summed. See pass.h for several objectives at once.

@@ -1,9 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "src/objective/objective_set.h"
+#include "icpscape/objective/objective_set.h"
 
-#include <glog/logging.h>
-
-#include "src/common/error.h"
+#include "icpscape/common/error.h"
 
 namespace icpscape {
 
@@ -43,7 +41,10 @@ const Matcher& ObjectiveSet::MatcherFor(const RegisteredMetric& metric, const Me
   const MatcherKind& kind = MatcherKindFor(metric.needs);
   const std::optional<SearchableCloud>& from = source.*kind.clouds;
   const std::optional<SearchableCloud>& to = target.*kind.clouds;
-  CHECK(from && to) << metric.name << " needs clouds of " << kind.clouds_name;
+  if (!from || !to) {
+    throw UsageError(metric.name + " needs clouds of " + kind.clouds_name +
+                     "; expected them of both scans.");
+  }
   std::unique_ptr<Matcher>& matcher = matchers_[&kind];
   if (!matcher) {
     matcher = kind.make(*from, *to, options);

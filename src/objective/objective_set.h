@@ -7,9 +7,9 @@
 #include <string>
 #include <vector>
 
-#include "src/matching/matcher_kinds.h"
-#include "src/objective/objective.h"
-#include "src/preparation/prepared_pair.h"
+#include "icpscape/matching/matcher_kinds.h"
+#include "icpscape/objective/objective.h"
+#include "icpscape/preparation/prepared_pair.h"
 
 namespace icpscape {
 
@@ -35,11 +35,13 @@ class ObjectiveSet {
                const ObjectiveSetOptions& options);
 
   /// The same with clouds for each kind of metric: LOAM keeps maps of edges and of planar points
-  /// apart. A metric whose clouds are missing is CHECKed.
+  /// apart. Throws UsageError where a metric's clouds are missing.
   ObjectiveSet(const MetricClouds& source, const MetricClouds& target,
                const std::vector<std::string>& metrics, const ObjectiveSetOptions& options);
 
-  const std::vector<Objective>& objectives() const { return objectives_; }
+  /// Their matchers live as long as the set does.
+  const std::vector<Objective>& objectives() const& { return objectives_; }
+  const std::vector<Objective>& objectives() && = delete;
 
  private:
   const Matcher& MatcherFor(const RegisteredMetric& metric, const MetricClouds& source,

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "src/objective/pair_block.h"
+#include "icpscape/objective/pair_block.h"
 
 namespace icpscape {
 

@@ -5,9 +5,9 @@
 #include <algorithm>
 #include <optional>
 
-#include "residuals/correspondence.h"
-#include "src/matching/matcher.h"
-#include "src/objective/block_kernels.h"
+#include "icpscape/matching/matcher.h"
+#include "icpscape/objective/block_kernels.h"
+#include "icpscape/residuals/correspondence.h"
 
 namespace icpscape {
 

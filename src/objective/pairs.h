@@ -4,7 +4,7 @@
 
 #include <optional>
 
-#include "src/objective/objective.h"
+#include "icpscape/objective/objective.h"
 
 namespace icpscape {
 

@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "src/objective/pass.h"
-
-#include <glog/logging.h>
+#include "icpscape/objective/pass.h"
 
 #include <algorithm>
+#include <string>
 
-#include "src/common/parallel.h"
+#include "icpscape/common/error.h"
+#include "icpscape/common/parallel.h"
 
 namespace icpscape {
 namespace {
@@ -74,7 +74,11 @@ class GroupPass {
   }
 
   std::vector<Evaluation> Frozen(const Matches& matches, int threads) const {
-    CHECK_EQ(matches.target_index.size(), matcher_.source().size());
+    if (matches.target_index.size() != matcher_.source().size()) {
+      throw UsageError("Matches of " + std::to_string(matches.target_index.size()) +
+                       " points; expected one for each of the source's " +
+                       std::to_string(matcher_.source().size()) + ".");
+    }
     return SumParts(threads, [&](std::size_t begin, std::size_t end, Evaluation* sums) {
       Sum(begin, end, matches, false, sums);
     });
@@ -148,7 +152,11 @@ std::vector<Evaluation> EvaluateAll(const std::vector<const Objective*>& objecti
                                     Derivatives derivatives, int threads) {
   return ForEachGroup(objectives, T_target_source, derivatives,
                       [&](const GroupPass& pass, const Matcher* matcher) {
-                        return pass.Frozen(frozen.at(matcher), threads);
+                        const auto matches = frozen.find(matcher);
+                        if (matches == frozen.end()) {
+                          throw UsageError("A matcher has no matches; expected those of each.");
+                        }
+                        return pass.Frozen(matches->second, threads);
                       });
 }
 

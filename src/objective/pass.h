@@ -5,7 +5,7 @@
 #include <map>
 #include <vector>
 
-#include "src/objective/objective.h"
+#include "icpscape/objective/objective.h"
 
 namespace icpscape {
 
@@ -21,6 +21,7 @@ MatchesByMatcher MatchAll(const std::vector<const Objective*>& objectives,
 /// cache; where a rejection needs to see all pairs first, matching comes before. Parts are of a
 /// fixed size and added in order: the same bits for any number of threads.
 /// Re-associates, unless there are `frozen` matches; where `keep` is given, the matches go there.
+/// Throws UsageError where `frozen` lacks a matcher, or has matches of another source.
 std::vector<Evaluation> EvaluateAll(const std::vector<const Objective*>& objectives,
                                     const SE3d& T_target_source, Derivatives derivatives,
                                     int threads, MatchesByMatcher* keep = nullptr);

@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "src/objective/registered_metric.h"
+#include "icpscape/objective/registered_metric.h"
 
 #include <vector>
 
-#include "residuals/adapters/ceres.h"
-#include "residuals/registry.h"
-#include "src/common/error.h"
-#include "src/common/text.h"
+#include "icpscape/common/error.h"
+#include "icpscape/common/text.h"
+#include "icpscape/residuals/adapters/ceres.h"
+#include "icpscape/residuals/registry.h"
 
 namespace icpscape {
 namespace {

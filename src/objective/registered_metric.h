@@ -5,7 +5,7 @@
 #include <cstddef>
 #include <string>
 
-#include "residuals/correspondence.h"
+#include "icpscape/residuals/correspondence.h"
 
 namespace ceres {
 class CostFunction;

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "src/odometry/local_map.h"
+#include "icpscape/odometry/local_map.h"
 
 #include <vector>
 
-#include "residuals/correspondence.h"
+#include "icpscape/residuals/correspondence.h"
 
 namespace icpscape {
 namespace {

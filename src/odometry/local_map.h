@@ -2,8 +2,8 @@
 #ifndef ICPSCAPE_SRC_ODOMETRY_LOCAL_MAP_H_
 #define ICPSCAPE_SRC_ODOMETRY_LOCAL_MAP_H_
 
-#include "src/odometry/voxel_map.h"
-#include "src/preparation/prepared_scan.h"
+#include "icpscape/odometry/voxel_map.h"
+#include "icpscape/preparation/prepared_scan.h"
 
 namespace icpscape {
 

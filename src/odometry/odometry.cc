@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "src/odometry/odometry.h"
+#include "icpscape/odometry/odometry.h"
 
 #include <glog/logging.h>
 
 #include <algorithm>
 #include <utility>
 
-#include "src/common/error.h"
-#include "src/common/text.h"
+#include "icpscape/common/error.h"
+#include "icpscape/common/text.h"
 
 namespace icpscape {
 namespace {
@@ -17,14 +17,6 @@ bool AnyFeatures(const std::vector<std::string>& metrics) {
 }
 bool AnyPoints(const std::vector<std::string>& metrics) {
   return !std::all_of(metrics.begin(), metrics.end(), NeedsFeatures);
-}
-
-JointObjective Joint(const ObjectiveSet& set, const std::vector<double>& weights) {
-  std::vector<JointObjective::Term> terms;
-  for (std::size_t i = 0; i < set.objectives().size(); ++i) {
-    terms.push_back({&set.objectives()[i], weights.empty() ? 1.0 : weights[i]});
-  }
-  return JointObjective(std::move(terms));
 }
 
 }  // namespace
@@ -62,7 +54,8 @@ struct Odometry::Registration {
   void Run(const ObjectiveSet& set, const SE3d& T_start, const OdometryOptions& options) {
     MinimizerOptions minimizer = options.minimizer;
     minimizer.threads = options.threads;
-    const MinimizerSummary summary = Minimize(Joint(set, options.weights), T_start, minimizer);
+    const MinimizerSummary summary =
+        Minimize(JointObjective(set.objectives(), options.weights), T_start, minimizer);
     usable = summary.Usable();
     termination = summary.termination;
     message = summary.message;

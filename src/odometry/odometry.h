@@ -6,12 +6,12 @@
 #include <string>
 #include <vector>
 
-#include "src/common/names.h"
-#include "src/filtering/filter_chain.h"
-#include "src/minimizer/minimizer.h"
-#include "src/objective/objective_set.h"
-#include "src/odometry/adaptive_gate.h"
-#include "src/odometry/local_map.h"
+#include "icpscape/common/names.h"
+#include "icpscape/filtering/filter_chain.h"
+#include "icpscape/minimizer/minimizer.h"
+#include "icpscape/objective/objective_set.h"
+#include "icpscape/odometry/adaptive_gate.h"
+#include "icpscape/odometry/local_map.h"
 
 namespace icpscape {
 

@@ -1,7 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "src/odometry/trajectory_errors.h"
-
-#include <glog/logging.h>
+#include "icpscape/odometry/trajectory_errors.h"
 
 #include <Eigen/Geometry>
 #include <Eigen/SVD>
@@ -9,8 +7,8 @@
 #include <cmath>
 #include <numeric>
 
-#include "src/common/error.h"
-#include "src/common/text.h"
+#include "icpscape/common/error.h"
+#include "icpscape/common/text.h"
 
 namespace icpscape {
 namespace {
@@ -200,7 +198,10 @@ PoseErrors AbsoluteErrors(const TrajectoryPair& pair, const SE3d& T_truth_estima
 }
 
 PoseErrors RelativeErrors(const TrajectoryPair& pair, int delta) {
-  CHECK_GT(delta, 0);
+  if (delta < 1) {
+    throw UsageError("Relative errors over " + std::to_string(delta) +
+                     " frames; expected at least 1.");
+  }
   PoseErrors errors;
   const auto step = static_cast<std::size_t>(delta);
   for (std::size_t i = 0; i + step < pair.truth.size(); ++i) {
@@ -212,7 +213,9 @@ PoseErrors RelativeErrors(const TrajectoryPair& pair, int delta) {
 }
 
 Statistics Summarize(std::vector<double> values) {
-  CHECK(!values.empty());
+  if (values.empty()) {
+    throw UsageError("Statistics of no values; expected at least one.");
+  }
   std::sort(values.begin(), values.end());
   const auto n = static_cast<double>(values.size());
   Statistics statistics;

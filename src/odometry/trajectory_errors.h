@@ -5,8 +5,8 @@
 #include <optional>
 #include <vector>
 
-#include "src/common/names.h"
-#include "src/io/trajectory.h"
+#include "icpscape/cloud/trajectory.h"
+#include "icpscape/common/names.h"
 
 namespace icpscape {
 
@@ -97,13 +97,13 @@ PoseErrors AbsoluteErrors(const TrajectoryPair& pair, const SE3d& T_truth_estima
 /// Relative pose error, RPE [ibid.], over `delta` frames, from every frame that has such a
 /// successor:
 ///   E_i = (truth_i^-1 truth_i+delta)^-1 (estimate_i^-1 estimate_i+delta).
+/// Throws UsageError for a delta below 1.
 PoseErrors RelativeErrors(const TrajectoryPair& pair, int delta);
 
 struct Statistics {
   double rmse = 0, mean = 0, median = 0, max = 0;
 };
-/// `values` must not be empty (CHECKed). The median of an even number is the mean of the middle
-/// two.
+/// The median of an even number is the mean of the middle two. Throws UsageError for no values.
 Statistics Summarize(std::vector<double> values);
 
 }  // namespace icpscape

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "src/odometry/voxel_map.h"
+#include "icpscape/odometry/voxel_map.h"
 
-#include "src/filtering/voxel_hash.h"
+#include "icpscape/filtering/voxel_hash.h"
 
 namespace icpscape {
 

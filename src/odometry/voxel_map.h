@@ -6,7 +6,7 @@
 #include <unordered_set>
 #include <vector>
 
-#include "src/cloud/point_cloud.h"
+#include "icpscape/cloud/point_cloud.h"
 
 namespace icpscape {
 

@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "src/paper/claim_list.h"
+#include "icpscape/paper/claim_list.h"
 
 #include <algorithm>
 #include <cmath>
 #include <map>
 
-#include "src/common/text.h"
-#include "src/paper/predicates.h"
+#include "icpscape/common/text.h"
+#include "icpscape/paper/predicates.h"
 
 namespace icpscape {
 

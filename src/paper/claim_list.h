@@ -7,8 +7,8 @@
 #include <utility>
 #include <vector>
 
-#include "src/paper/claims.h"
-#include "src/paper/figures.h"
+#include "icpscape/paper/claims.h"
+#include "icpscape/paper/figures.h"
 
 namespace icpscape {
 
@@ -16,6 +16,7 @@ namespace icpscape {
 class FigureView {
  public:
   FigureView(const ClaimInputs& inputs, const std::string& figure);
+  FigureView(const ClaimInputs&& inputs, const std::string& figure) = delete;
 
   bool Drawn() const;
   const Curve& Of(const std::string& metric, Variant variant) const;

@@ -1,14 +1,14 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "src/paper/claims.h"
+#include "icpscape/paper/claims.h"
 
 #include <algorithm>
 #include <array>
 #include <cmath>
 #include <limits>
 
-#include "src/common/text.h"
-#include "src/paper/claim_list.h"
-#include "src/paper/predicates.h"
+#include "icpscape/common/text.h"
+#include "icpscape/paper/claim_list.h"
+#include "icpscape/paper/predicates.h"
 
 namespace icpscape {
 namespace {

@@ -6,8 +6,8 @@
 #include <string>
 #include <vector>
 
-#include "residuals/lie.h"
-#include "src/landscape/curve.h"
+#include "icpscape/landscape/curve.h"
+#include "icpscape/residuals/lie.h"
 
 namespace icpscape {
 

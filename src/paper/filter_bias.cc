@@ -1,15 +1,15 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "src/paper/filter_bias.h"
+#include "icpscape/paper/filter_bias.h"
 
 #include <algorithm>
 #include <cmath>
 #include <numeric>
 
-#include "src/common/error.h"
-#include "src/common/parallel.h"
-#include "src/common/text.h"
-#include "src/landscape/path.h"
-#include "src/neighbors/neighbor_search.h"
+#include "icpscape/common/error.h"
+#include "icpscape/common/parallel.h"
+#include "icpscape/common/text.h"
+#include "icpscape/landscape/path.h"
+#include "icpscape/neighbors/neighbor_search.h"
 
 namespace icpscape {
 namespace {

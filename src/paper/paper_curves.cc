@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "src/paper/paper_curves.h"
+#include "icpscape/paper/paper_curves.h"
 
 #include <utility>
 
-#include "src/filtering/ego_blind_spot.h"
-#include "src/filtering/filter_chain.h"
-#include "src/filtering/octree_correspondence_filter.h"
+#include "icpscape/filtering/ego_blind_spot.h"
+#include "icpscape/filtering/filter_chain.h"
+#include "icpscape/filtering/octree_correspondence_filter.h"
 
 namespace icpscape {
 namespace {

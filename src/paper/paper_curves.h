@@ -7,10 +7,10 @@
 #include <string>
 #include <vector>
 
-#include "src/landscape/curve.h"
-#include "src/objective/objective_set.h"
-#include "src/paper/figures.h"
-#include "src/paper/pull.h"
+#include "icpscape/landscape/curve.h"
+#include "icpscape/objective/objective_set.h"
+#include "icpscape/paper/figures.h"
+#include "icpscape/paper/pull.h"
 
 namespace icpscape {
 

@@ -4,7 +4,7 @@
 
 #include <vector>
 
-#include "src/landscape/curve.h"
+#include "icpscape/landscape/curve.h"
 
 namespace icpscape {
 

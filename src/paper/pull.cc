@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "src/paper/pull.h"
+#include "icpscape/paper/pull.h"
 
 #include <array>
 #include <functional>
 #include <set>
 
-#include "src/common/text.h"
-#include "src/simulation/surface.h"
+#include "icpscape/cloud/label.h"
+#include "icpscape/common/text.h"
 
 namespace icpscape {
 namespace {

@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "src/objective/objective.h"
+#include "icpscape/objective/objective.h"
 
 namespace icpscape {
 

@@ -2,7 +2,7 @@
 #ifndef ICPSCAPE_SRC_PREPARATION_ELEVATION_H_
 #define ICPSCAPE_SRC_PREPARATION_ELEVATION_H_
 
-#include "src/cloud/point_cloud.h"
+#include "icpscape/cloud/point_cloud.h"
 
 namespace icpscape {
 

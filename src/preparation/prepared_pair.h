@@ -4,9 +4,9 @@
 
 #include <utility>
 
-#include "residuals/correspondence.h"
-#include "src/filtering/kept_points.h"
-#include "src/preparation/prepared_scan.h"
+#include "icpscape/filtering/kept_points.h"
+#include "icpscape/preparation/prepared_scan.h"
+#include "icpscape/residuals/correspondence.h"
 
 namespace icpscape {
 

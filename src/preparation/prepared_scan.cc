@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "src/preparation/prepared_scan.h"
+#include "icpscape/preparation/prepared_scan.h"
 
 #include <optional>
 #include <utility>
 
-#include "residuals/correspondence.h"
-#include "src/cloud/rings.h"
-#include "src/filtering/voxel_filter.h"
-#include "src/preparation/elevation.h"
+#include "icpscape/cloud/rings.h"
+#include "icpscape/filtering/voxel_filter.h"
+#include "icpscape/preparation/elevation.h"
+#include "icpscape/residuals/correspondence.h"
 
 namespace icpscape {
 namespace {

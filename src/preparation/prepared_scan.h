@@ -5,9 +5,9 @@
 #include <optional>
 #include <vector>
 
-#include "src/cloud/features.h"
-#include "src/cloud/normals.h"
-#include "src/matching/metric_clouds.h"
+#include "icpscape/cloud/features.h"
+#include "icpscape/cloud/normals.h"
+#include "icpscape/matching/metric_clouds.h"
 
 namespace icpscape {
 

@@ -11,7 +11,7 @@
 #define EIGEN_DONT_VECTORIZE  // Lanes are vectors already.
 #include <Eigen/Core>
 
-#include "src/simd/vectors.h"
+#include "icpscape/simd/vectors.h"
 
 namespace icpscape {
 namespace {

@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "src/common/names.h"
+#include "icpscape/common/names.h"
 
 namespace icpscape {
 

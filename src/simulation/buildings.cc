@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "src/simulation/buildings.h"
+#include "icpscape/simulation/buildings.h"
 
 #include <algorithm>
 

@@ -4,8 +4,8 @@
 
 #include <cstdint>
 
-#include "src/simulation/mesh.h"
-#include "src/simulation/random.h"
+#include "icpscape/simulation/mesh.h"
+#include "icpscape/simulation/random.h"
 
 namespace icpscape {
 

@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "src/simulation/drive.h"
+#include "icpscape/simulation/drive.h"
 
 #include <algorithm>
 #include <cmath>
 
-#include "src/simulation/lidar.h"
-#include "src/simulation/town.h"
+#include "icpscape/simulation/lidar.h"
+#include "icpscape/simulation/town.h"
 
 namespace icpscape {
 namespace {

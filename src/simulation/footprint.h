@@ -6,7 +6,7 @@
 #include <utility>
 #include <vector>
 
-#include "src/simulation/street_network.h"
+#include "icpscape/simulation/street_network.h"
 
 namespace icpscape {
 

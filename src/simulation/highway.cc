@@ -1,15 +1,15 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "src/simulation/highway.h"
+#include "icpscape/simulation/highway.h"
 
 #include <algorithm>
 #include <cmath>
 #include <functional>
 #include <vector>
 
-#include "src/simulation/random.h"
-#include "src/simulation/roadside.h"
-#include "src/simulation/vegetation.h"
-#include "src/simulation/vehicles.h"
+#include "icpscape/simulation/random.h"
+#include "icpscape/simulation/roadside.h"
+#include "icpscape/simulation/vegetation.h"
+#include "icpscape/simulation/vehicles.h"
 
 namespace icpscape {
 namespace {

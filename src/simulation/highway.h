@@ -4,7 +4,7 @@
 
 #include <cstdint>
 
-#include "src/simulation/world.h"
+#include "icpscape/simulation/world.h"
 
 namespace icpscape {
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "src/simulation/lidar.h"
+#include "icpscape/simulation/lidar.h"
 
 #include <algorithm>
 #include <array>
@@ -8,9 +8,9 @@
 #include <thread>
 #include <vector>
 
-#include "src/common/error.h"
-#include "src/common/text.h"
-#include "src/simulation/random.h"
+#include "icpscape/common/error.h"
+#include "icpscape/common/text.h"
+#include "icpscape/simulation/random.h"
 
 namespace icpscape {
 namespace {

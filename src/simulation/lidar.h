@@ -4,8 +4,8 @@
 
 #include <cstdint>
 
-#include "src/cloud/point_cloud.h"
-#include "src/simulation/ray_caster.h"
+#include "icpscape/cloud/point_cloud.h"
+#include "icpscape/simulation/ray_caster.h"
 
 namespace icpscape {
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "src/simulation/mesh.h"
+#include "icpscape/simulation/mesh.h"
 
 #include <cmath>
 

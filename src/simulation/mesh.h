@@ -7,8 +7,8 @@
 #include <functional>
 #include <vector>
 
-#include "residuals/lie.h"
-#include "src/simulation/surface.h"
+#include "icpscape/residuals/lie.h"
+#include "icpscape/simulation/surface.h"
 
 namespace icpscape {
 

@@ -1,11 +1,13 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "src/simulation/ray_caster.h"
+#include "icpscape/simulation/ray_caster.h"
 
 #include <embree3/rtcore.h>
-#include <glog/logging.h>
 #include <oneapi/tbb/task_arena.h>
 
 #include <cmath>
+#include <string>
+
+#include "icpscape/common/error.h"
 
 namespace icpscape {
 
@@ -17,7 +19,10 @@ struct RayCaster::Impl {
   explicit Impl(Mesh m) : mesh(std::move(m)) {
     // Not "threads=1", which would hold all of oneTBB to one thread while the device lives.
     device = rtcNewDevice("isa=sse2");
-    CHECK(device != nullptr) << "Embree does not start: error " << rtcGetDeviceError(nullptr);
+    if (device == nullptr) {
+      throw ComputationError("Embree does not start: error " +
+                             std::to_string(rtcGetDeviceError(nullptr)) + ".");
+    }
     scene = rtcNewScene(device);
     // Robust: no ray slips between two triangles of one edge.
     rtcSetSceneFlags(scene, RTC_SCENE_FLAG_ROBUST);
@@ -37,11 +42,17 @@ struct RayCaster::Impl {
     // Built on one thread: the same tree on every machine.
     tbb::task_arena arena(1);
     arena.execute([&] { rtcJoinCommitScene(scene); });
-    CHECK_EQ(rtcGetDeviceError(device), RTC_ERROR_NONE);
+    const RTCError error = rtcGetDeviceError(device);
+    if (error != RTC_ERROR_NONE) {
+      Release();
+      throw ComputationError("Embree cannot build the scene: error " + std::to_string(error) + ".");
+    }
   }
   Impl(const Impl&) = delete;
   Impl& operator=(const Impl&) = delete;
-  ~Impl() {
+  ~Impl() { Release(); }
+
+  void Release() {
     rtcReleaseScene(scene);
     rtcReleaseDevice(device);
   }

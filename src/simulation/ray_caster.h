@@ -5,7 +5,7 @@
 #include <cstdint>
 #include <memory>
 
-#include "src/simulation/mesh.h"
+#include "icpscape/simulation/mesh.h"
 
 namespace icpscape {
 

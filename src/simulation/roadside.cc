@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "src/simulation/roadside.h"
+#include "icpscape/simulation/roadside.h"
 
 #include <algorithm>
 #include <cmath>

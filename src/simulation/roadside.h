@@ -4,7 +4,7 @@
 
 #include <cstdint>
 
-#include "src/simulation/mesh.h"
+#include "icpscape/simulation/mesh.h"
 
 namespace icpscape {
 

@@ -4,7 +4,7 @@
 
 #include <vector>
 
-#include "residuals/lie.h"
+#include "icpscape/residuals/lie.h"
 
 namespace icpscape {
 

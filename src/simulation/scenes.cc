@@ -1,15 +1,16 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "src/simulation/scenes.h"
+#include "icpscape/simulation/scenes.h"
 
 #include <algorithm>
 #include <cmath>
 
-#include "src/common/error.h"
-#include "src/common/text.h"
-#include "src/simulation/highway.h"
-#include "src/simulation/lidar.h"
-#include "src/simulation/random.h"
-#include "src/simulation/town.h"
+#include "icpscape/cloud/scan_sequence.h"
+#include "icpscape/common/error.h"
+#include "icpscape/common/text.h"
+#include "icpscape/simulation/highway.h"
+#include "icpscape/simulation/lidar.h"
+#include "icpscape/simulation/random.h"
+#include "icpscape/simulation/town.h"
 
 namespace icpscape {
 namespace {

@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-#include "src/simulation/world.h"
+#include "icpscape/simulation/world.h"
 
 namespace icpscape {
 
@@ -18,8 +18,6 @@ std::vector<std::string> SceneNames();
 /// Throws UsageError naming the scenes there are.
 void CheckSceneName(const std::string& name);
 
-/// Seconds between two scans.
-constexpr double kScanPeriodS = 0.1;
 /// Scans of a scene: the frames N - 2, N - 1 (the target) and N (the source).
 constexpr int kSceneScans = 3;
 

@@ -1,16 +1,16 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "src/simulation/simulated_sequence.h"
+#include "icpscape/simulation/simulated_sequence.h"
 
 #include <functional>
 #include <memory>
 #include <mutex>
 #include <utility>
 
-#include "src/simulation/drive.h"
-#include "src/simulation/random.h"
-#include "src/simulation/route.h"
-#include "src/simulation/scenes.h"
-#include "src/simulation/simulator.h"
+#include "icpscape/simulation/drive.h"
+#include "icpscape/simulation/random.h"
+#include "icpscape/simulation/route.h"
+#include "icpscape/simulation/scenes.h"
+#include "icpscape/simulation/simulator.h"
 
 namespace icpscape {
 namespace {

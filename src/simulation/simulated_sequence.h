@@ -5,8 +5,8 @@
 #include <cstdint>
 #include <string>
 
-#include "src/cloud/scan_sequence.h"
-#include "src/simulation/lidar.h"
+#include "icpscape/cloud/scan_sequence.h"
+#include "icpscape/simulation/lidar.h"
 
 namespace icpscape {
 

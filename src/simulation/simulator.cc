@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "src/simulation/simulator.h"
+#include "icpscape/simulation/simulator.h"
 
 #include <optional>
 
-#include "src/simulation/random.h"
+#include "icpscape/simulation/random.h"
 
 namespace icpscape {
 namespace {

@@ -4,9 +4,9 @@
 
 #include <cstdint>
 
-#include "src/cloud/point_cloud.h"
-#include "src/simulation/lidar.h"
-#include "src/simulation/world.h"
+#include "icpscape/cloud/point_cloud.h"
+#include "icpscape/simulation/lidar.h"
+#include "icpscape/simulation/world.h"
 
 namespace icpscape {
 

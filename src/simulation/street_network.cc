@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "src/simulation/street_network.h"
+#include "icpscape/simulation/street_network.h"
 
 #include <algorithm>
 #include <cmath>
 #include <limits>
 
-#include "src/simulation/random.h"
+#include "icpscape/simulation/random.h"
 
 namespace icpscape {
 namespace {

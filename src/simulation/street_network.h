@@ -6,7 +6,7 @@
 #include <cstdint>
 #include <vector>
 
-#include "src/simulation/mesh.h"
+#include "icpscape/simulation/mesh.h"
 
 namespace icpscape {
 

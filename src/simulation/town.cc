@@ -1,15 +1,15 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "src/simulation/town.h"
+#include "icpscape/simulation/town.h"
 
 #include <algorithm>
 #include <cmath>
 
-#include "src/simulation/buildings.h"
-#include "src/simulation/footprint.h"
-#include "src/simulation/random.h"
-#include "src/simulation/roadside.h"
-#include "src/simulation/vegetation.h"
-#include "src/simulation/vehicles.h"
+#include "icpscape/simulation/buildings.h"
+#include "icpscape/simulation/footprint.h"
+#include "icpscape/simulation/random.h"
+#include "icpscape/simulation/roadside.h"
+#include "icpscape/simulation/vegetation.h"
+#include "icpscape/simulation/vehicles.h"
 
 namespace icpscape {
 namespace {

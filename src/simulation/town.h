@@ -5,8 +5,8 @@
 #include <cstdint>
 #include <vector>
 
-#include "src/simulation/street_network.h"
-#include "src/simulation/world.h"
+#include "icpscape/simulation/street_network.h"
+#include "icpscape/simulation/world.h"
 
 namespace icpscape {
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "src/simulation/vegetation.h"
+#include "icpscape/simulation/vegetation.h"
 
 #include <cmath>
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "src/simulation/vehicles.h"
+#include "icpscape/simulation/vehicles.h"
 
 #include <cmath>
 #include <vector>

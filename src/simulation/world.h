@@ -4,7 +4,7 @@
 
 #include <vector>
 
-#include "src/simulation/mesh.h"
+#include "icpscape/simulation/mesh.h"
 
 namespace icpscape {
 

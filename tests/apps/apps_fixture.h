@@ -8,8 +8,8 @@
 #include <string>
 #include <vector>
 
-#include "src/io/point_files.h"
-#include "src/io/transform.h"
+#include "icpscape/io/point_files.h"
+#include "icpscape/io/transform.h"
 #include "tests/support/run_program.h"
 #include "tests/support/scenes.h"
 #include "tests/support/temporary_folder.h"

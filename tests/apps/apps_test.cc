@@ -10,9 +10,9 @@
 #include <sstream>
 #include <vector>
 
-#include "src/common/text.h"
-#include "src/io/point_files.h"
-#include "src/io/transform.h"
+#include "icpscape/common/text.h"
+#include "icpscape/io/point_files.h"
+#include "icpscape/io/transform.h"
 #include "tests/apps/apps_fixture.h"
 #include "tests/support/real_scans.h"
 #include "tests/support/run_program.h"

@@ -6,8 +6,8 @@
 #include <cmath>
 #include <nlohmann/json.hpp>
 
-#include "src/io/kitti_writer.h"
-#include "src/io/trajectory.h"
+#include "icpscape/io/kitti_writer.h"
+#include "icpscape/io/trajectory.h"
 #include "tests/support/run_program.h"
 #include "tests/support/temporary_folder.h"
 

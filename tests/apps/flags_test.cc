@@ -18,7 +18,7 @@
 #include "apps/flags/objective.h"
 #include "apps/flags/odometry.h"
 #include "apps/flags/preparation.h"
-#include "src/objective/loss.h"
+#include "icpscape/objective/loss.h"
 
 namespace icpscape {
 namespace {

@@ -6,7 +6,7 @@
 #include <cmath>
 #include <nlohmann/json.hpp>
 
-#include "src/common/text.h"
+#include "icpscape/common/text.h"
 #include "tests/support/run_program.h"
 #include "tests/support/temporary_folder.h"
 

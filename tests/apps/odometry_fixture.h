@@ -12,8 +12,8 @@
 #include <utility>
 #include <vector>
 
-#include "src/io/transform.h"
-#include "src/odometry/frame_record.h"
+#include "icpscape/io/transform.h"
+#include "icpscape/resumable/frame_record.h"
 #include "tests/support/drives.h"
 #include "tests/support/run_program.h"
 #include "tests/support/temporary_folder.h"

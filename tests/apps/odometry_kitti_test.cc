@@ -4,8 +4,8 @@
 
 #include <nlohmann/json.hpp>
 
-#include "src/io/sequences.h"
-#include "src/io/trajectory.h"
+#include "icpscape/io/sequences.h"
+#include "icpscape/io/trajectory.h"
 #include "tests/apps/odometry_fixture.h"
 #include "tests/support/real_scans.h"
 

@@ -8,8 +8,8 @@
 #include <nlohmann/json.hpp>
 #include <set>
 
-#include "src/io/point_files.h"
-#include "src/io/trajectory.h"
+#include "icpscape/io/point_files.h"
+#include "icpscape/io/trajectory.h"
 #include "tests/apps/odometry_fixture.h"
 
 namespace icpscape {

@@ -7,8 +7,8 @@
 #include <filesystem>
 #include <nlohmann/json.hpp>
 
-#include "src/io/point_files.h"
-#include "src/io/transform.h"
+#include "icpscape/io/point_files.h"
+#include "icpscape/io/transform.h"
 #include "tests/apps/apps_fixture.h"
 #include "tests/support/run_program.h"
 

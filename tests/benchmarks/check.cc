@@ -5,8 +5,8 @@
 #include <algorithm>
 #include <cmath>
 
-#include "src/cloud/normals.h"
-#include "src/common/text.h"
+#include "icpscape/cloud/normals.h"
+#include "icpscape/common/text.h"
 #include "tests/benchmarks/comparison.h"
 
 namespace icpscape {

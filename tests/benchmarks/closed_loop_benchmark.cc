@@ -2,7 +2,7 @@
 #include <functional>
 #include <memory>
 
-#include "src/cloud/normals.h"
+#include "icpscape/cloud/normals.h"
 #include "tests/benchmarks/check.h"
 #include "tests/benchmarks/closed_loops.h"
 #include "tests/benchmarks/comparison.h"

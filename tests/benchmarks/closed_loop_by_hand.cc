@@ -3,8 +3,8 @@
 #include <algorithm>
 #include <vector>
 
-#include "src/common/parallel.h"
-#include "src/matching/closest_point_matcher.h"
+#include "icpscape/common/parallel.h"
+#include "icpscape/matching/closest_point_matcher.h"
 #include "tests/benchmarks/closed_loops.h"
 
 namespace icpscape {

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "src/matching/closest_point_matcher.h"
-#include "src/minimizer/minimizer.h"
+#include "icpscape/matching/closest_point_matcher.h"
+#include "icpscape/minimizer/minimizer.h"
 #include "tests/benchmarks/closed_loops.h"
 #include "tests/benchmarks/comparison.h"
 

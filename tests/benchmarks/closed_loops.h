@@ -4,7 +4,7 @@
 
 #include <cmath>
 
-#include "src/cloud/point_cloud.h"
+#include "icpscape/cloud/point_cloud.h"
 
 namespace icpscape {
 

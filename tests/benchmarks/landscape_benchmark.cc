@@ -3,8 +3,8 @@
 
 #include <memory>
 
-#include "src/landscape/curve.h"
-#include "src/objective/objective_set.h"
+#include "icpscape/landscape/curve.h"
+#include "icpscape/objective/objective_set.h"
 #include "tests/benchmarks/check.h"
 #include "tests/benchmarks/comparison.h"
 #include "tests/benchmarks/landscape_by_hand.h"

@@ -3,7 +3,7 @@
 
 #include <cmath>
 
-#include "src/common/parallel.h"
+#include "icpscape/common/parallel.h"
 #include "tests/benchmarks/nanoflann_peer.h"
 
 namespace icpscape {

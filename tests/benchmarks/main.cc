@@ -6,8 +6,8 @@
 #include <iostream>
 
 #include "apps/flags/pair.h"
-#include "src/common/error.h"
-#include "src/simd/level.h"
+#include "icpscape/common/error.h"
+#include "icpscape/simd/level.h"
 #include "tests/benchmarks/comparison.h"
 #include "tests/benchmarks/rows.h"
 

@@ -5,8 +5,8 @@
 #include <cstdint>
 #include <nanoflann.hpp>
 
-#include "src/cloud/point_cloud.h"
-#include "src/common/parallel.h"
+#include "icpscape/cloud/point_cloud.h"
+#include "icpscape/common/parallel.h"
 #include "tests/benchmarks/nearest.h"
 
 namespace icpscape {

@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <limits>
 
-#include "src/common/parallel.h"
+#include "icpscape/common/parallel.h"
 
 namespace icpscape {
 

@@ -5,8 +5,8 @@
 #include <cstdint>
 #include <vector>
 
-#include "src/cloud/point_cloud.h"
-#include "src/neighbors/neighbor_search.h"
+#include "icpscape/cloud/point_cloud.h"
+#include "icpscape/neighbors/neighbor_search.h"
 
 namespace icpscape {
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <memory>
 
-#include "src/cloud/normals.h"
+#include "icpscape/cloud/normals.h"
 #include "tests/benchmarks/check.h"
 #include "tests/benchmarks/comparison.h"
 #include "tests/benchmarks/open3d_peer.h"

@@ -7,7 +7,7 @@
 #include <open3d/geometry/PointCloud.h>
 #include <open3d/pipelines/registration/Registration.h>
 
-#include "src/common/parallel.h"
+#include "icpscape/common/parallel.h"
 
 namespace icpscape {
 

@@ -6,7 +6,7 @@
 #include <Eigen/Eigenvalues>
 #include <cmath>
 
-#include "src/matching/local_fit_matcher.h"
+#include "icpscape/matching/local_fit_matcher.h"
 #include "tests/benchmarks/pcl_cloud.h"
 
 namespace icpscape {

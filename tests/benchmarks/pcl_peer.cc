@@ -10,7 +10,7 @@
 
 #include <cmath>
 
-#include "src/common/parallel.h"
+#include "icpscape/common/parallel.h"
 #include "tests/benchmarks/pcl_cloud.h"
 
 namespace icpscape {

@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-#include "src/cloud/point_cloud.h"
+#include "icpscape/cloud/point_cloud.h"
 #include "tests/benchmarks/nearest.h"
 
 namespace icpscape {

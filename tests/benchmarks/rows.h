@@ -4,7 +4,7 @@
 
 #include <string>
 
-#include "src/simd/level.h"
+#include "icpscape/simd/level.h"
 #include "tests/benchmarks/benchmark_pair.h"
 
 namespace icpscape {

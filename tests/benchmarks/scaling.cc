@@ -8,12 +8,12 @@
 #include <iostream>
 
 #include "apps/flags/pair.h"
-#include "src/cloud/normals.h"
-#include "src/common/error.h"
-#include "src/common/text.h"
-#include "src/landscape/curve.h"
-#include "src/objective/objective_set.h"
-#include "src/simd/level.h"
+#include "icpscape/cloud/normals.h"
+#include "icpscape/common/error.h"
+#include "icpscape/common/text.h"
+#include "icpscape/landscape/curve.h"
+#include "icpscape/objective/objective_set.h"
+#include "icpscape/simd/level.h"
 #include "tests/benchmarks/closed_loops.h"
 #include "tests/benchmarks/nanoflann_peer.h"
 #include "tests/benchmarks/nearest.h"

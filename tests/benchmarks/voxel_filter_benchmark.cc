@@ -2,7 +2,7 @@
 #include <cmath>
 #include <memory>
 
-#include "src/filtering/voxel_filter.h"
+#include "icpscape/filtering/voxel_filter.h"
 #include "tests/benchmarks/check.h"
 #include "tests/benchmarks/comparison.h"
 #include "tests/benchmarks/open3d_peer.h"

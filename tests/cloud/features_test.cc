@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "src/cloud/features.h"
+#include "icpscape/cloud/features.h"
 
 #include <gtest/gtest.h>
 
 #include <cmath>
 
-#include "src/cloud/rings.h"
-#include "src/common/error.h"
+#include "icpscape/cloud/rings.h"
+#include "icpscape/common/error.h"
 #include "tests/support/real_scans.h"
 
 namespace icpscape {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "src/cloud/normals.h"
+#include "icpscape/cloud/normals.h"
 
 #include <gtest/gtest.h>
 #include <pcl/common/centroid.h>
@@ -9,8 +9,8 @@
 #include <algorithm>
 #include <vector>
 
-#include "src/io/kitti.h"
-#include "src/neighbors/neighbor_search.h"
+#include "icpscape/io/kitti.h"
+#include "icpscape/neighbors/neighbor_search.h"
 #include "tests/support/real_scans.h"
 #include "tests/support/scenes.h"
 

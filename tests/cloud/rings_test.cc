@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "src/cloud/rings.h"
+#include "icpscape/cloud/rings.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -9,7 +9,7 @@
 #include <ostream>
 #include <random>
 
-#include "src/common/error.h"
+#include "icpscape/common/error.h"
 #include "tests/support/real_scans.h"
 
 namespace icpscape {

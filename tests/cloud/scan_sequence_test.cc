@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "src/cloud/scan_sequence.h"
+#include "icpscape/cloud/scan_sequence.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "src/common/error.h"
+#include "icpscape/common/error.h"
 #include "tests/support/message_of.h"
 
 namespace icpscape {

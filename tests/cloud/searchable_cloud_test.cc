@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "src/cloud/searchable_cloud.h"
+#include "icpscape/cloud/searchable_cloud.h"
 
 #include <gtest/gtest.h>
 
 #include <optional>
 
-#include "src/cloud/normals.h"
+#include "icpscape/cloud/normals.h"
 #include "tests/support/scenes.h"
 
 namespace icpscape {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "src/cloud/smoothness.h"
+#include "icpscape/cloud/smoothness.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -8,8 +8,8 @@
 #include <cstring>
 #include <random>
 
-#include "src/cloud/rings.h"
-#include "src/common/error.h"
+#include "icpscape/cloud/rings.h"
+#include "icpscape/common/error.h"
 #include "tests/support/real_scans.h"
 
 namespace icpscape {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "src/covariance/consistency.h"
+#include "icpscape/covariance/consistency.h"
 
 #include <gtest/gtest.h>
 
@@ -7,7 +7,8 @@
 #include <cmath>
 #include <random>
 
-#include "src/common/error.h"
+#include "icpscape/common/error.h"
+#include "tests/support/message_of.h"
 
 namespace icpscape {
 namespace {
@@ -52,6 +53,20 @@ TEST(Consistency, NeesByHand) {
   }
   EXPECT_NEAR(DeviationRatio(StatisticsOf(errors), one_and_nine)[2],
               std::sqrt(5.0) / (3 * std::sqrt(2.0 / 11)), 1e-12);
+}
+
+TEST(Consistency, RefusesWhatIsNoCovariance) {
+  const auto message = [](const std::vector<Mat6>& covariances) {
+    return testing_support::MessageOf<UsageError>([&] {
+      NeesAboutTruth({Vec6::Ones(), Vec6::Ones()}, covariances);
+    });
+  };
+  Mat6 flat = Mat6::Identity();
+  flat(3, 3) = 0;
+  EXPECT_EQ(message({Mat6::Identity()}),
+            "2 errors and 1 covariances; expected as many of both, at least one.");
+  EXPECT_EQ(message({Mat6::Identity(), flat}),
+            "Covariance 1 is not positive definite; expected all of them to be.");
 }
 
 // Tables of the chi-square distribution: 60 degrees of freedom, 2.5 and 97.5 %.

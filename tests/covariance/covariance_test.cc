@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "src/covariance/covariance.h"
+#include "icpscape/covariance/covariance.h"
 
 #include <ceres/covariance.h>
 #include <ceres/problem.h>
@@ -9,12 +9,12 @@
 #include <algorithm>
 #include <random>
 
-#include "residuals/adapters/ceres.h"
-#include "residuals/point_to_plane.h"
-#include "src/cloud/normals.h"
-#include "src/covariance/consistency.h"
-#include "src/matching/closest_point_matcher.h"
-#include "src/objective/loss.h"
+#include "icpscape/cloud/normals.h"
+#include "icpscape/covariance/consistency.h"
+#include "icpscape/matching/closest_point_matcher.h"
+#include "icpscape/objective/loss.h"
+#include "icpscape/residuals/adapters/ceres.h"
+#include "icpscape/residuals/point_to_plane.h"
 #include "tests/support/scenes.h"
 
 namespace icpscape {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "src/covariance/degeneracy.h"
+#include "icpscape/covariance/degeneracy.h"
 
 #include <gtest/gtest.h>
 
@@ -7,12 +7,12 @@
 #include <cmath>
 #include <limits>
 
-#include "src/cloud/normals.h"
-#include "src/common/error.h"
-#include "src/matching/closest_point_matcher.h"
-#include "src/minimizer/minimizer.h"
-#include "src/simulation/scenes.h"
-#include "src/simulation/simulated_sequence.h"
+#include "icpscape/cloud/normals.h"
+#include "icpscape/common/error.h"
+#include "icpscape/matching/closest_point_matcher.h"
+#include "icpscape/minimizer/minimizer.h"
+#include "icpscape/simulation/scenes.h"
+#include "icpscape/simulation/simulated_sequence.h"
 #include "tests/support/matchers.h"
 #include "tests/support/scenes.h"
 

@@ -5,10 +5,10 @@
 
 #include <limits>
 
-#include "src/cloud/normals.h"
-#include "src/common/error.h"
-#include "src/covariance/covariance.h"
-#include "src/matching/closest_point_matcher.h"
+#include "icpscape/cloud/normals.h"
+#include "icpscape/common/error.h"
+#include "icpscape/covariance/covariance.h"
+#include "icpscape/matching/closest_point_matcher.h"
 #include "tests/support/message_of.h"
 #include "tests/support/scenes.h"
 

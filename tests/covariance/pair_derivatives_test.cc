@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "src/covariance/pair_derivatives.h"
+#include "icpscape/covariance/pair_derivatives.h"
 
 #include <ceres/loss_function.h>
 #include <gtest/gtest.h>
 
-#include "residuals/registry.h"
-#include "tests/support/residual_sampler.h"
+#include "icpscape/residuals/registry.h"
+#include "icpscape/testing/residual_sampler.h"
 
 namespace icpscape {
 namespace {

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "src/covariance/registration_uncertainty.h"
+#include "icpscape/covariance/registration_uncertainty.h"
 
 #include <gtest/gtest.h>
 
-#include "src/common/error.h"
-#include "src/matching/closest_point_matcher.h"
+#include "icpscape/common/error.h"
+#include "icpscape/matching/closest_point_matcher.h"
 #include "tests/support/scenes.h"
 
 namespace icpscape {

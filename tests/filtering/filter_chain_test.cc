@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "src/filtering/filter_chain.h"
+#include "icpscape/filtering/filter_chain.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -7,9 +7,9 @@
 #include <numeric>
 #include <tuple>
 
-#include "src/common/error.h"
-#include "src/filtering/ego_blind_spot.h"
-#include "src/filtering/octree_correspondence_filter.h"
+#include "icpscape/common/error.h"
+#include "icpscape/filtering/ego_blind_spot.h"
+#include "icpscape/filtering/octree_correspondence_filter.h"
 #include "tests/support/message_of.h"
 #include "tests/support/scenes.h"
 

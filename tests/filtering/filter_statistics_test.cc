@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "src/filtering/filter_statistics.h"
+#include "icpscape/filtering/filter_statistics.h"
 
 #include <gtest/gtest.h>
 
 #include <cmath>
 
-#include "src/common/error.h"
+#include "icpscape/common/error.h"
 
 namespace icpscape {
 namespace {

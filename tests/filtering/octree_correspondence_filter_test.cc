@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "src/filtering/octree_correspondence_filter.h"
+#include "icpscape/filtering/octree_correspondence_filter.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -12,9 +12,9 @@
 #include <random>
 #include <set>
 
-#include "src/common/error.h"
-#include "src/filtering/filter_statistics.h"
-#include "src/io/sequences.h"
+#include "icpscape/common/error.h"
+#include "icpscape/filtering/filter_statistics.h"
+#include "icpscape/io/sequences.h"
 #include "tests/support/real_scans.h"
 
 namespace icpscape {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "src/filtering/voxel_filter.h"
+#include "icpscape/filtering/voxel_filter.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -15,7 +15,7 @@
 #include <random>
 #include <tuple>
 
-#include "src/common/error.h"
+#include "icpscape/common/error.h"
 #include "tests/support/real_scans.h"
 #include "tests/support/scenes.h"
 

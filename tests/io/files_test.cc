@@ -7,12 +7,13 @@
 #include <random>
 #include <thread>
 
-#include "src/common/error.h"
-#include "src/common/text.h"
-#include "src/io/manifest.h"
-#include "src/io/output.h"
-#include "src/io/point_files.h"
-#include "src/io/transform.h"
+#include "icpscape/common/error.h"
+#include "icpscape/common/text.h"
+#include "icpscape/io/manifest.h"
+#include "icpscape/io/output.h"
+#include "icpscape/io/point_files.h"
+#include "icpscape/io/transform.h"
+#include "tests/support/message_of.h"
 #include "tests/support/scenes.h"
 #include "tests/support/temporary_folder.h"
 
@@ -176,6 +177,13 @@ TEST(Output, FolderMustBeWritable) {
               HasSubstr("cannot be written"));
   PrepareOutputFolder(folder.path() / "a/b");
   EXPECT_TRUE(std::filesystem::is_directory(folder.path() / "a/b"));
+}
+
+TEST(Output, TablesRefuseRowsOfOtherLengths) {
+  Table table({"a", "b"});
+  table.AddRow({"1", "2"});
+  EXPECT_EQ(testing_support::MessageOf<UsageError>([&] { table.AddRow({"3"}); }),
+            "A row of 1 cells; expected one for each of 2 columns.");
 }
 
 TEST(Manifest, SaysWhatTookHowLong) {

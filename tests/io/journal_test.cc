@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "src/io/journal.h"
+#include "icpscape/io/journal.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -7,7 +7,7 @@
 
 #include <csignal>
 
-#include "src/io/sha256.h"
+#include "icpscape/io/sha256.h"
 #include "tests/support/message_of.h"
 #include "tests/support/temporary_folder.h"
 
@@ -207,8 +207,12 @@ TEST_F(JournalTest, LosesNothingOnAFullDisk) {
 
 TEST_F(JournalTest, TakesNoLineFeeds) {
   Journal journal(path_, kHeader);
-  EXPECT_DEATH(journal.Append("a\nb"), "record");
-  EXPECT_DEATH(Journal(folder_.path() / "other", "a\nb"), "header");
+  const auto message = [](const auto& f) { return testing_support::MessageOf<UsageError>(f); };
+  EXPECT_EQ(message([&] { journal.Append("a\nb"); }),
+            "A journal's record has a line feed; expected one line: a\nb");
+  EXPECT_EQ(message([&] { Journal(folder_.path() / "other", "c\nd"); }),
+            "A journal's record has a line feed; expected one line: c\nd");
+  EXPECT_TRUE(journal.records().empty());
 }
 
 }  // namespace

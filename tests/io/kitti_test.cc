@@ -1,13 +1,15 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "src/io/kitti.h"
+#include "icpscape/io/kitti.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include <fstream>
 
-#include "src/common/error.h"
-#include "src/io/sequences.h"
+#include "icpscape/common/error.h"
+#include "icpscape/io/kitti_writer.h"
+#include "icpscape/io/sequences.h"
+#include "tests/support/message_of.h"
 #include "tests/support/real_scans.h"
 #include "tests/support/temporary_folder.h"
 
@@ -15,17 +17,8 @@ namespace icpscape {
 namespace {
 
 using testing::HasSubstr;
+using testing_support::MessageOf;
 using testing_support::TemporaryFolder;
-
-template <class Error, class F>
-std::string MessageOf(const F& f) {
-  try {
-    f();
-  } catch (const Error& error) {
-    return error.what();
-  }
-  return "nothing was thrown";
-}
 
 std::string Floats(const std::vector<float>& values) {
   return {reinterpret_cast<const char*>(values.data()), values.size() * sizeof(float)};
@@ -57,6 +50,19 @@ TEST(Velodyne, RefusesBrokenFilesInOneSentence) {
   EXPECT_THAT(message(folder.Write("empty.bin", "")), HasSubstr("no usable point among 0"));
   EXPECT_THAT(message(folder.Write("nan.bin", Floats({NAN, 0, 0, 0}))),
               HasSubstr("no usable point among 1"));
+}
+
+TEST(Velodyne, WritesLabelsAndRingsOfEveryPointOrNone) {
+  const TemporaryFolder folder;
+  const auto path = folder.path() / "0";
+  PointCloud cloud;
+  cloud.x = cloud.y = cloud.z = {1, 2};
+  cloud.label = cloud.ring = {3};
+  EXPECT_EQ(MessageOf<UsageError>([&] { WriteLabels(path, cloud); }),
+            path.string() + ": 1 labels for 2 points; expected one for each.");
+  EXPECT_EQ(MessageOf<UsageError>([&] { WriteRings(path, cloud); }),
+            path.string() + ": 1 rings for 2 points; expected one for each.");
+  EXPECT_FALSE(std::filesystem::exists(path));
 }
 
 TEST(KittiPoses, MotionGoesThroughTheCalibration) {

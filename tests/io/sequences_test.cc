@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "src/io/sequences.h"
+#include "icpscape/io/sequences.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "src/io/kitti.h"
+#include "icpscape/io/kitti.h"
 #include "tests/support/message_of.h"
 #include "tests/support/real_scans.h"
 #include "tests/support/temporary_folder.h"

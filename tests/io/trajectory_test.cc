@@ -1,12 +1,13 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "src/io/trajectory.h"
+#include "icpscape/io/trajectory.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include <sstream>
 
-#include "src/common/error.h"
+#include "icpscape/common/error.h"
+#include "tests/support/message_of.h"
 #include "tests/support/real_scans.h"
 #include "tests/support/temporary_folder.h"
 
@@ -115,6 +116,16 @@ TEST(Trajectory, TextIsWhatTheFormatsSay) {
   std::string rest;
   EXPECT_FALSE(kitti >> rest);
   EXPECT_FALSE(tum >> rest);
+}
+
+TEST(Trajectory, WritesNoTumWithoutTimes) {
+  Trajectory trajectory = Winding();
+  trajectory.times_s.pop_back();
+  const TemporaryFolder folder;
+  const auto path = folder.path() / "tum.txt";
+  EXPECT_THAT(testing_support::MessageOf<UsageError>([&] { WriteTumTrajectory(path, trajectory); }),
+              HasSubstr("expected one for each, as the format of TUM asks"));
+  EXPECT_FALSE(std::filesystem::exists(path));
 }
 
 TEST(Trajectory, RefusesBrokenFilesInOneSentence) {

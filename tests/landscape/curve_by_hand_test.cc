@@ -6,8 +6,8 @@
 #include <optional>
 #include <vector>
 
-#include "src/landscape/curve.h"
-#include "src/matching/closest_point_matcher.h"
+#include "icpscape/landscape/curve.h"
+#include "icpscape/matching/closest_point_matcher.h"
 #include "tests/support/scenes.h"
 
 namespace icpscape {

@@ -1,17 +1,17 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "src/landscape/curve.h"
+#include "icpscape/landscape/curve.h"
 
 #include <gtest/gtest.h>
 
 #include <cmath>
 #include <memory>
 
-#include "residuals/registry.h"
-#include "src/cloud/normals.h"
-#include "src/common/error.h"
-#include "src/io/kitti.h"
-#include "src/io/sequences.h"
-#include "src/matching/closest_point_matcher.h"
+#include "icpscape/cloud/normals.h"
+#include "icpscape/common/error.h"
+#include "icpscape/io/kitti.h"
+#include "icpscape/io/sequences.h"
+#include "icpscape/matching/closest_point_matcher.h"
+#include "icpscape/residuals/registry.h"
 #include "tests/support/matchers.h"
 #include "tests/support/real_scans.h"
 #include "tests/support/scenes.h"

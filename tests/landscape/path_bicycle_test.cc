@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <gtest/gtest.h>
 
-#include "src/common/vehicle.h"
+#include "icpscape/common/vehicle.h"
 
 #include <cmath>
 #include <random>
 
-#include "src/io/sequences.h"
-#include "src/landscape/path.h"
+#include "icpscape/io/sequences.h"
+#include "icpscape/landscape/path.h"
 #include "tests/support/real_scans.h"
 
 namespace icpscape {

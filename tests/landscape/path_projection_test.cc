@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "src/landscape/path_projection.h"
+#include "icpscape/landscape/path_projection.h"
 
 #include <gtest/gtest.h>
 

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "src/landscape/path.h"
+#include "icpscape/landscape/path.h"
 
 #include <gtest/gtest.h>
 
-#include "src/common/error.h"
-#include "tests/support/residual_sampler.h"
+#include "icpscape/common/error.h"
+#include "icpscape/testing/residual_sampler.h"
 
 namespace icpscape {
 namespace {

@@ -1,15 +1,15 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "src/matching/local_fit_matcher.h"
+#include "icpscape/matching/local_fit_matcher.h"
 
 #include <gtest/gtest.h>
 
 #include <Eigen/Eigenvalues>
 #include <cmath>
 
-#include "src/common/error.h"
-#include "src/io/kitti.h"
-#include "src/io/sequences.h"
-#include "src/neighbors/neighbor_search.h"
+#include "icpscape/common/error.h"
+#include "icpscape/io/kitti.h"
+#include "icpscape/io/sequences.h"
+#include "icpscape/neighbors/neighbor_search.h"
 #include "tests/support/real_scans.h"
 #include "tests/support/scenes.h"
 

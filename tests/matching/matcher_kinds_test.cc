@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "src/matching/matcher_kinds.h"
+#include "icpscape/matching/matcher_kinds.h"
 
 #include <gtest/gtest.h>
 

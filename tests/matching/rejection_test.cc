@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "src/matching/rejection.h"
+#include "icpscape/matching/rejection.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -7,9 +7,9 @@
 #include <cmath>
 #include <random>
 
-#include "src/common/error.h"
-#include "src/io/sequences.h"
-#include "src/matching/closest_point_matcher.h"
+#include "icpscape/common/error.h"
+#include "icpscape/io/sequences.h"
+#include "icpscape/matching/closest_point_matcher.h"
 #include "tests/support/real_scans.h"
 
 namespace icpscape {

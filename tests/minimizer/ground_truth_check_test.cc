@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "src/minimizer/ground_truth_check.h"
+#include "icpscape/minimizer/ground_truth_check.h"
 
 #include <gtest/gtest.h>
 
-#include "src/cloud/normals.h"
-#include "src/common/error.h"
-#include "src/io/sequences.h"
+#include "icpscape/cloud/normals.h"
+#include "icpscape/common/error.h"
+#include "icpscape/io/sequences.h"
 #include "tests/minimizer/room.h"
 #include "tests/support/message_of.h"
 #include "tests/support/real_scans.h"

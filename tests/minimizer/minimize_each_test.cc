@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "src/minimizer/minimize_each.h"
+#include "icpscape/minimizer/minimize_each.h"
 
 #include <gtest/gtest.h>
 
-#include "src/matching/closest_point_matcher.h"
+#include "icpscape/matching/closest_point_matcher.h"
 #include "tests/support/scenes.h"
 
 namespace icpscape {

@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "src/minimizer/random_starts.h"
+#include "icpscape/minimizer/random_starts.h"
 
 #include <gtest/gtest.h>
 
 #include <cmath>
 
-#include "src/matching/closest_point_matcher.h"
-#include "src/objective/loss.h"
+#include "icpscape/matching/closest_point_matcher.h"
+#include "icpscape/objective/loss.h"
 #include "tests/minimizer/room.h"
 
 namespace icpscape {

@@ -4,7 +4,7 @@
 
 #include <gtest/gtest.h>
 
-#include "src/minimizer/minimizer.h"
+#include "icpscape/minimizer/minimizer.h"
 #include "tests/support/named.h"
 #include "tests/support/scenes.h"
 

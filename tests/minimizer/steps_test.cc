@@ -5,8 +5,8 @@
 
 #include <cmath>
 
-#include "src/matching/closest_point_matcher.h"
-#include "src/minimizer/minimizer.h"
+#include "icpscape/matching/closest_point_matcher.h"
+#include "icpscape/minimizer/minimizer.h"
 #include "tests/minimizer/room.h"
 
 namespace icpscape {

@@ -5,9 +5,9 @@
 #include <cmath>
 #include <utility>
 
-#include "src/matching/closest_point_matcher.h"
-#include "src/minimizer/minimizer.h"
-#include "src/objective/loss.h"
+#include "icpscape/matching/closest_point_matcher.h"
+#include "icpscape/minimizer/minimizer.h"
+#include "icpscape/objective/loss.h"
 #include "tests/minimizer/room.h"
 
 namespace icpscape {

@@ -5,7 +5,7 @@
 #include <limits>
 #include <vector>
 
-#include "src/neighbors/neighbor_search.h"
+#include "icpscape/neighbors/neighbor_search.h"
 #include "tests/support/scenes.h"
 #include "tests/support/simd_levels.h"
 

@@ -4,8 +4,8 @@
 #include <nanoflann.hpp>
 #include <vector>
 
-#include "src/io/kitti.h"
-#include "src/neighbors/neighbor_search.h"
+#include "icpscape/io/kitti.h"
+#include "icpscape/neighbors/neighbor_search.h"
 #include "tests/support/real_scans.h"
 #include "tests/support/scenes.h"
 #include "tests/support/simd_levels.h"

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "src/neighbors/neighbor_search.h"
+#include "icpscape/neighbors/neighbor_search.h"
 
 #include <gtest/gtest.h>
 
@@ -8,7 +8,7 @@
 #include <random>
 #include <thread>
 
-#include "src/io/kitti.h"
+#include "icpscape/io/kitti.h"
 #include "tests/support/real_scans.h"
 #include "tests/support/scenes.h"
 #include "tests/support/simd_levels.h"

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "src/neighbors/neighborhoods.h"
+#include "icpscape/neighbors/neighborhoods.h"
 
 #include <gtest/gtest.h>
 
@@ -8,8 +8,8 @@
 #include <limits>
 #include <random>
 
-#include "src/neighbors/moved_points.h"
-#include "src/neighbors/neighbor_search.h"
+#include "icpscape/neighbors/moved_points.h"
+#include "icpscape/neighbors/neighbor_search.h"
 #include "tests/support/scenes.h"
 #include "tests/support/simd_levels.h"
 

@@ -1,15 +1,19 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "src/objective/joint_objective.h"
+#include "icpscape/objective/joint_objective.h"
 
 #include <ceres/problem.h>
 #include <gtest/gtest.h>
 
-#include "residuals/adapters/ceres.h"
-#include "src/cloud/normals.h"
-#include "src/common/error.h"
-#include "src/minimizer/minimizer.h"
-#include "src/objective/loss.h"
-#include "src/objective/objective_set.h"
+#include <memory>
+#include <type_traits>
+#include <utility>
+
+#include "icpscape/cloud/normals.h"
+#include "icpscape/common/error.h"
+#include "icpscape/minimizer/minimizer.h"
+#include "icpscape/objective/loss.h"
+#include "icpscape/objective/objective_set.h"
+#include "icpscape/residuals/adapters/ceres.h"
 #include "tests/support/prepared.h"
 #include "tests/support/scenes.h"
 
@@ -40,7 +44,7 @@ TEST(JointObjective, IsTheWeightedSumAndWhatCeresSees) {
   const ObjectiveSet set(AsPrepared(room.source, room.target, room.features),
                          {"edge_to_line", "planar_to_plane", "point_to_plane"}, options);
   const auto& o = set.objectives();
-  const JointObjective joint({{&o[0], 2}, {&o[1], 0.5}, {&o[2], 1}});
+  const JointObjective joint(set.objectives(), {2, 0.5, 1});
   EXPECT_EQ(joint.Name(), "edge_to_line + planar_to_plane + point_to_plane");
   const SE3d T(Mat3::Identity(), Vec3(0.05, 0.02, 0));
   const MatchesByMatcher matches = joint.Match(T, 1);
@@ -107,9 +111,9 @@ TEST(JointObjective, KnowsAnUpwardLossOfAnyTerm) {
     EXPECT_EQ(joint.HasUpwardLoss(), upward) << joint.Name();
     EXPECT_EQ(joint.Evaluate(SE3d(), 1).sums.upward_loss, upward) << joint.Name();
   };
-  expect(JointObjective({{&huber, 0.5}, {&tolerant, 2}}), true);
-  expect(JointObjective({{&tolerant, 0.5}, {&huber, 2}}), true);
-  expect(JointObjective({{&huber, 0.5}, {&huber, 2}}), false);
+  expect(JointObjective({huber, tolerant}, {0.5, 2}), true);
+  expect(JointObjective({tolerant, huber}, {0.5, 2}), true);
+  expect(JointObjective({huber, huber}, {0.5, 2}), false);
   expect(tolerant, true);
 }
 
@@ -119,10 +123,38 @@ TEST(JointObjective, EdgesAndPlanesTogetherFindTheMotion) {
   room.source = testing_support::Room(3000, 1, motion.Inverse(), 0.005);
   const ObjectiveSet set(AsPrepared(room.source, room.target, room.features),
                          {"edge_to_line", "planar_to_plane"}, {});
-  const JointObjective joint({{&set.objectives()[0], 0.1}, {&set.objectives()[1], 1}});
+  const JointObjective joint(set.objectives(), {0.1, 1});
   const MinimizerSummary summary = Minimize(joint, SE3d(), {});
   ASSERT_TRUE(summary.Usable()) << summary.message;
   EXPECT_LT((motion.Inverse() * summary.T_target_source()).t().norm(), 0.01);
+}
+
+// What keeps a reference takes no temporary, which would die at once. A sum has copies of its
+// objectives, and may be moved.
+static_assert(!std::is_constructible_v<Objective, std::string, ClosestPointMatcher>);
+static_assert(!std::is_constructible_v<Objective, const RegisteredMetric&, ClosestPointMatcher>);
+static_assert(std::is_constructible_v<Objective, std::string, ClosestPointMatcher&>);
+template <class Set, class = void>
+constexpr bool kGivesObjectives = false;
+template <class Set>
+constexpr bool kGivesObjectives<Set, std::void_t<decltype(std::declval<Set>().objectives())>> =
+    true;
+static_assert(!kGivesObjectives<ObjectiveSet>);
+static_assert(kGivesObjectives<const ObjectiveSet&>);
+
+TEST(JointObjective, OutlivesTheObjectivesThatItIsMadeOf) {
+  const RoomPair room;
+  const ClosestPointMatcher matcher(room.source, room.target);
+  auto objectives = std::make_unique<std::vector<Objective>>();
+  objectives->emplace_back("point_to_plane", matcher, MakeLoss("huber", 0.01));
+  objectives->emplace_back("point_to_point", matcher, nullptr);
+  const SE3d T(Mat3::Identity(), Vec3(0.05, 0.02, 0));
+  const double cost =
+      2 * (*objectives)[0].Evaluate(T, 1).sums.cost + 3 * (*objectives)[1].Evaluate(T, 1).sums.cost;
+  JointObjective made(*objectives, {2, 3});
+  objectives.reset();
+  const JointObjective moved = std::move(made);
+  EXPECT_NEAR(moved.Evaluate(T, 1).sums.cost, cost, 1e-12 * cost);
 }
 
 TEST(JointObjective, RefusesWeightsThatAreNone) {
@@ -130,8 +162,9 @@ TEST(JointObjective, RefusesWeightsThatAreNone) {
   const ObjectiveSet set(AsPrepared(room.source, room.target, room.features), {"point_to_point"},
                          {});
   for (const double weight : {0.0, -1.0, std::nan("")}) {
-    EXPECT_THROW(JointObjective({{&set.objectives()[0], weight}}), UsageError);
+    EXPECT_THROW(JointObjective(set.objectives(), {weight}), UsageError);
   }
+  EXPECT_THROW(JointObjective(set.objectives(), {1, 1}), UsageError);
 }
 
 TEST(ObjectiveSet, KindsShareAMatcherAndTakeTheirFeatures) {

@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "src/objective/loss.h"
+#include "icpscape/objective/loss.h"
 
 #include <ceres/loss_function.h>
 #include <gtest/gtest.h>
 
 #include <cmath>
 
-#include "src/common/error.h"
+#include "icpscape/common/error.h"
 
 namespace icpscape {
 namespace {

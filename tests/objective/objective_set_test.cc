@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "src/objective/objective_set.h"
+#include "icpscape/objective/objective_set.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "residuals/registry.h"
-#include "src/cloud/normals.h"
-#include "src/common/error.h"
-#include "src/objective/loss.h"
+#include "icpscape/cloud/normals.h"
+#include "icpscape/common/error.h"
+#include "icpscape/objective/loss.h"
+#include "icpscape/residuals/registry.h"
 #include "tests/support/message_of.h"
 #include "tests/support/prepared.h"
 #include "tests/support/scenes.h"
@@ -131,10 +131,8 @@ TEST(ObjectiveSet, GivesEachKindOfMetricItsOwnClouds) {
   Features everything{std::vector<char>(room.source.size(), 1),
                       std::vector<char>(room.source.size(), 1)};
   const auto alone = [&](const PointCloud& target, const char* metric) {
-    return ObjectiveSet(AsPrepared(room.source, target, everything), {metric}, Lenient())
-        .objectives()[0]
-        .Evaluate(kMotion, 1)
-        .sums.cost;
+    const ObjectiveSet one(AsPrepared(room.source, target, everything), {metric}, Lenient());
+    return one.objectives()[0].Evaluate(kMotion, 1).sums.cost;
   };
   const auto cost = [&](std::size_t i) {
     return set.objectives()[i].Evaluate(kMotion, 1).sums.cost;
@@ -172,17 +170,19 @@ TEST(ObjectiveSet, MatchesNothingInAnEmptyTarget) {
   }
 }
 
-TEST(ObjectiveSet, ChecksThatTheCloudsAreThere) {
+TEST(ObjectiveSet, RefusesMetricsWhoseCloudsAreMissing) {
   const testing_support::MovedRoom& room = TheScene().room;
   const SearchableCloud all(room.source);
   const MetricClouds points{all, {}, {}};
-  EXPECT_DEATH(ObjectiveSet(points, points, {"edge_to_line"}, Lenient()),
-               "edge_to_line needs clouds of edges");
-  EXPECT_DEATH(ObjectiveSet(points, points, {"planar_to_patch"}, Lenient()),
-               "planar_to_patch needs clouds of planar points");
   const MetricClouds edges{{}, all, {}};
-  EXPECT_DEATH(ObjectiveSet(edges, edges, {"symmetric"}, Lenient()),
-               "symmetric needs clouds of points");
+  const auto message = [](const MetricClouds& clouds, const char* metric) {
+    return testing_support::MessageOf<UsageError>(
+        [&] { ObjectiveSet(clouds, clouds, {metric}, Lenient()); });
+  };
+  EXPECT_THAT(message(points, "edge_to_line"), ::testing::HasSubstr("needs clouds of edges;"));
+  EXPECT_THAT(message(points, "planar_to_patch"),
+              ::testing::HasSubstr("needs clouds of planar points;"));
+  EXPECT_THAT(message(edges, "symmetric"), ::testing::HasSubstr("needs clouds of points;"));
 }
 
 }  // namespace

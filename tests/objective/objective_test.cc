@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "src/objective/objective.h"
+#include "icpscape/objective/objective.h"
 
 #include <ceres/loss_function.h>
 #include <ceres/problem.h>
@@ -8,18 +8,18 @@
 
 #include <cstdlib>
 
-#include "residuals/adapters/ceres.h"
-#include "residuals/registry.h"
-#include "src/cloud/normals.h"
-#include "src/common/error.h"
-#include "src/io/kitti.h"
-#include "src/io/sequences.h"
-#include "src/matching/closest_point_matcher.h"
-#include "src/objective/loss.h"
-#include "src/objective/pairs.h"
+#include "icpscape/cloud/normals.h"
+#include "icpscape/common/error.h"
+#include "icpscape/io/kitti.h"
+#include "icpscape/io/sequences.h"
+#include "icpscape/matching/closest_point_matcher.h"
+#include "icpscape/objective/loss.h"
+#include "icpscape/objective/pairs.h"
+#include "icpscape/residuals/adapters/ceres.h"
+#include "icpscape/residuals/registry.h"
+#include "icpscape/testing/residual_sampler.h"
 #include "tests/support/matchers.h"
 #include "tests/support/real_scans.h"
-#include "tests/support/residual_sampler.h"
 #include "tests/support/scenes.h"
 
 namespace icpscape {

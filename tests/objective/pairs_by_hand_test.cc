@@ -2,24 +2,28 @@
 // What an objective makes of pairs that are few enough to be computed by hand.
 #include <ceres/loss_function.h>
 #include <ceres/problem.h>
+#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include <cmath>
 #include <map>
 #include <set>
 
-#include "residuals/registry.h"
-#include "src/objective/loss.h"
-#include "src/objective/objective.h"
-#include "src/objective/pairs.h"
+#include "icpscape/objective/loss.h"
+#include "icpscape/objective/objective.h"
+#include "icpscape/objective/pairs.h"
+#include "icpscape/residuals/registry.h"
 #include "tests/support/matchers.h"
+#include "tests/support/message_of.h"
 #include "tests/support/scenes.h"
 
 namespace icpscape {
 namespace {
 
+using ::testing::HasSubstr;
 using testing_support::AddPoint;
 using testing_support::FixedMatcher;
+using testing_support::MessageOf;
 
 void AddNormal(const Vec3& n, PointCloud* cloud) {
   cloud->nx.push_back(static_cast<float>(n.x()));
@@ -231,19 +235,26 @@ TEST(ForEachPair, NamesThePointsOfEveryPairOnce) {
   EXPECT_GT(seen.size(), 1000U);
 }
 
-TEST(Objective, ChecksThatItsNeedsAreThere) {
+TEST(Objective, RefusesAMatcherThatLacksItsNeeds) {
   PointCloud with = OnePair().source, without = with;
   without.nx.clear(), without.ny.clear(), without.nz.clear();
   const ClosestPointMatcher both(with, with), no_source(without, with), no_target(with, without);
-  EXPECT_DEATH(Objective("edge_to_line", both),
-               "edge_to_line needs more than its matcher provides");
-  EXPECT_DEATH(Objective("symmetric", no_source),
-               "symmetric needs source normals; the source cloud has none");
-  EXPECT_DEATH(Objective("point_to_plane", no_target),
-               "point_to_plane needs target normals; the target cloud has none");
+  const auto message = [](const char* metric, const Matcher& matcher) {
+    return MessageOf<UsageError>([&] { Objective(metric, matcher); });
+  };
+  EXPECT_THAT(message("edge_to_line", both), HasSubstr("needs more than its matcher provides"));
+  EXPECT_THAT(message("symmetric", no_source),
+              HasSubstr("needs source normals; the source cloud has none"));
+  EXPECT_THAT(message("point_to_plane", no_target),
+              HasSubstr("needs target normals; the target cloud has none"));
+}
+
+TEST(Objective, RefusesMatchesOfAnotherSource) {
+  const ClosestPointMatcher matcher(OnePair().source, OnePair().source);
+  const Objective objective("point_to_point", matcher);
   const Matches of_another_cloud{{0, 0}};
-  EXPECT_DEATH(Objective("point_to_point", both).Evaluate(SE3d(), of_another_cloud, 1),
-               "target_index.size");
+  EXPECT_THAT(MessageOf<UsageError>([&] { objective.Evaluate(SE3d(), of_another_cloud, 1); }),
+              HasSubstr("Matches of 2 points; expected one for each of the source's 1."));
 }
 
 }  // namespace

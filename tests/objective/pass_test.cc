@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "src/objective/pass.h"
+#include "icpscape/objective/pass.h"
 
 #include <ceres/loss_function.h>
 #include <gtest/gtest.h>
@@ -8,11 +8,12 @@
 #include <cmath>
 #include <limits>
 
-#include "residuals/registry.h"
-#include "src/landscape/curve.h"
-#include "src/objective/loss.h"
-#include "src/objective/objective_set.h"
+#include "icpscape/landscape/curve.h"
+#include "icpscape/objective/loss.h"
+#include "icpscape/objective/objective_set.h"
+#include "icpscape/residuals/registry.h"
 #include "tests/support/matchers.h"
+#include "tests/support/message_of.h"
 #include "tests/support/scenes.h"
 #include "tests/support/simd_levels.h"
 
@@ -191,6 +192,14 @@ TEST(Pass, KeptMatchesAreThoseOfThePose) {
     ExpectSameBits(associated[m], frozen[m]);
   }
   EXPECT_EQ(associated.back().n(), 3001);  // Of 6001, rounded.
+}
+
+TEST(Pass, RefusesFrozenMatchesThatLackAMatcher) {
+  const AllObjectives all;
+  EXPECT_EQ(testing_support::MessageOf<UsageError>([&] {
+              EvaluateAll(all.pointers, kPose, MatchesByMatcher(), Derivatives::kHessian, 1);
+            }),
+            "A matcher has no matches; expected those of each.");
 }
 
 TEST(Pass, IsTheSameBitsForAnyThreadsAndEverySimdLevel) {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "src/odometry/adaptive_gate.h"
+#include "icpscape/odometry/adaptive_gate.h"
 
 #include <gtest/gtest.h>
 

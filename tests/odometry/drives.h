@@ -6,9 +6,9 @@
 #include <string>
 #include <vector>
 
-#include "src/objective/loss.h"
-#include "src/odometry/frame_record.h"
-#include "src/odometry/odometry.h"
+#include "icpscape/objective/loss.h"
+#include "icpscape/odometry/odometry.h"
+#include "icpscape/resumable/frame_record.h"
 #include "tests/support/drives.h"
 
 namespace icpscape::testing_support {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "src/odometry/local_map.h"
+#include "icpscape/odometry/local_map.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // What holds in every mode.
-#include "src/odometry/odometry.h"
+#include "icpscape/odometry/odometry.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "residuals/registry.h"
-#include "src/common/error.h"
+#include "icpscape/common/error.h"
+#include "icpscape/residuals/registry.h"
 #include "tests/odometry/drives.h"
 #include "tests/support/message_of.h"
 #include "tests/support/named.h"

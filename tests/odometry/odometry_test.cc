@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "src/odometry/odometry.h"
+#include "icpscape/odometry/odometry.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "residuals/registry.h"
-#include "src/common/error.h"
+#include "icpscape/common/error.h"
+#include "icpscape/residuals/registry.h"
 #include "tests/odometry/drives.h"
 #include "tests/support/message_of.h"
 #include "tests/support/prepared.h"
@@ -53,12 +53,8 @@ void ExpectTheChainOfItsParts(const OdometryOptions& options) {
                                                        target.cloud().Select(kept.target),
                                                        source.features()->Select(kept.source)),
                            options.metrics, objective);
-    std::vector<JointObjective::Term> terms;
-    for (const Objective& term : set.objectives()) {
-      terms.push_back({&term, 1});
-    }
     const MinimizerSummary summary =
-        Minimize(JointObjective(std::move(terms)), predicted, options.minimizer);
+        Minimize(JointObjective(set.objectives(), {}), predicted, options.minimizer);
     const SE3d found = summary.T_target_source().Normalized();
     EXPECT_EQ(results[i].gate_m, gate.MaxDistance_m());
     EXPECT_EQ(results[i].motion.Matrix(), found.Matrix()) << i;

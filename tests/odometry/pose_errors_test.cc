@@ -4,9 +4,10 @@
 
 #include <cmath>
 
-#include "src/common/error.h"
-#include "src/odometry/trajectory_errors.h"
+#include "icpscape/common/error.h"
+#include "icpscape/odometry/trajectory_errors.h"
 #include "tests/odometry/trajectories.h"
+#include "tests/support/message_of.h"
 
 namespace icpscape {
 namespace {
@@ -102,6 +103,8 @@ TEST(RelativeErrors, ByHand) {
   EXPECT_NEAR(two.translation_m[0], std::hypot(x - 2, y), 1e-12);
   EXPECT_NEAR(two.rotation_rad[2], 2 * kDegree, 1e-12);
   EXPECT_TRUE(RelativeErrors(pair, 5).translation_m.empty());
+  EXPECT_EQ(testing_support::MessageOf<UsageError>([&] { RelativeErrors(pair, 0); }),
+            "Relative errors over 0 frames; expected at least 1.");
 }
 
 TEST(Statistics, ByHand) {
@@ -110,6 +113,8 @@ TEST(Statistics, ByHand) {
   EXPECT_DOUBLE_EQ(odd.mean, 2);
   EXPECT_DOUBLE_EQ(odd.median, 2);
   EXPECT_DOUBLE_EQ(odd.max, 3);
+  EXPECT_EQ(testing_support::MessageOf<UsageError>([] { Summarize({}); }),
+            "Statistics of no values; expected at least one.");
   const Statistics even = Summarize({4, 1, 2, 10});
   EXPECT_DOUBLE_EQ(even.rmse, std::sqrt(121.0 / 4));
   EXPECT_DOUBLE_EQ(even.mean, 17.0 / 4);

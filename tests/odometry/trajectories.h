@@ -6,7 +6,7 @@
 #include <random>
 #include <vector>
 
-#include "residuals/lie.h"
+#include "icpscape/residuals/lie.h"
 
 namespace icpscape::testing_support {
 

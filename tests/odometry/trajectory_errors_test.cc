@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // KITTI's errors of stretches, and their means.
-#include "src/odometry/trajectory_errors.h"
+#include "icpscape/odometry/trajectory_errors.h"
 
 #include <gtest/gtest.h>
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "src/odometry/voxel_map.h"
+#include "icpscape/odometry/voxel_map.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "src/paper/claims.h"
+#include "icpscape/paper/claims.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -7,8 +7,8 @@
 #include <cmath>
 #include <set>
 
-#include "src/common/error.h"
-#include "src/paper/figures.h"
+#include "icpscape/common/error.h"
+#include "icpscape/paper/figures.h"
 
 namespace icpscape {
 namespace {

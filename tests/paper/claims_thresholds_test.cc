@@ -8,8 +8,8 @@
 #include <string>
 #include <vector>
 
-#include "src/paper/claims.h"
-#include "src/paper/figures.h"
+#include "icpscape/paper/claims.h"
+#include "icpscape/paper/figures.h"
 
 namespace icpscape {
 namespace {

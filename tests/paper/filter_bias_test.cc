@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "src/paper/filter_bias.h"
+#include "icpscape/paper/filter_bias.h"
 
 #include <gtest/gtest.h>
 
-#include "src/cloud/normals.h"
-#include "src/common/error.h"
-#include "src/matching/closest_point_matcher.h"
+#include "icpscape/cloud/normals.h"
+#include "icpscape/common/error.h"
+#include "icpscape/matching/closest_point_matcher.h"
 #include "tests/support/scenes.h"
 
 namespace icpscape {

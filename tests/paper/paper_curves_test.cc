@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "src/paper/paper_curves.h"
+#include "icpscape/paper/paper_curves.h"
 
 #include <gtest/gtest.h>
 
-#include "src/filtering/ego_blind_spot.h"
-#include "src/filtering/octree_correspondence_filter.h"
-#include "src/simulation/simulated_sequence.h"
+#include "icpscape/filtering/ego_blind_spot.h"
+#include "icpscape/filtering/octree_correspondence_filter.h"
+#include "icpscape/simulation/simulated_sequence.h"
 
 namespace icpscape {
 namespace {

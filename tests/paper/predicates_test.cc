@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "src/paper/predicates.h"
+#include "icpscape/paper/predicates.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

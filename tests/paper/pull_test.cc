@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "src/paper/pull.h"
+#include "icpscape/paper/pull.h"
 
 #include <gtest/gtest.h>
 
 #include <map>
 
-#include "src/matching/closest_point_matcher.h"
+#include "icpscape/matching/closest_point_matcher.h"
 #include "tests/support/scenes.h"
 
 namespace icpscape {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "src/preparation/elevation.h"
+#include "icpscape/preparation/elevation.h"
 
 #include <gtest/gtest.h>
 

@@ -1,15 +1,15 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "src/preparation/prepared_scan.h"
+#include "icpscape/preparation/prepared_scan.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "src/cloud/rings.h"
-#include "src/common/error.h"
-#include "src/filtering/voxel_filter.h"
-#include "src/minimizer/ground_truth_check.h"
-#include "src/objective/objective_set.h"
-#include "src/preparation/elevation.h"
+#include "icpscape/cloud/rings.h"
+#include "icpscape/common/error.h"
+#include "icpscape/filtering/voxel_filter.h"
+#include "icpscape/minimizer/ground_truth_check.h"
+#include "icpscape/objective/objective_set.h"
+#include "icpscape/preparation/elevation.h"
 #include "tests/support/drives.h"
 #include "tests/support/message_of.h"
 #include "tests/support/scenes.h"

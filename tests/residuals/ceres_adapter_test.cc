@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "residuals/adapters/ceres.h"
+#include "icpscape/residuals/adapters/ceres.h"
 
 #include <ceres/loss_function.h>
 #include <ceres/problem.h>
@@ -9,10 +9,10 @@
 #include <memory>
 #include <vector>
 
-#include "residuals/point_to_plane.h"
-#include "residuals/point_to_point.h"
+#include "icpscape/residuals/point_to_plane.h"
+#include "icpscape/residuals/point_to_point.h"
+#include "icpscape/testing/residual_test_suite.h"
 #include "tests/support/named.h"
-#include "tests/support/residual_test_suite.h"
 
 namespace icpscape {
 namespace {

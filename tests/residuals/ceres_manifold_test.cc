@@ -2,9 +2,9 @@
 #include <ceres/manifold_test_utils.h>
 #include <gtest/gtest.h>
 
-#include "residuals/adapters/ceres.h"
-#include "residuals/point_to_point.h"
-#include "tests/support/residual_sampler.h"
+#include "icpscape/residuals/adapters/ceres.h"
+#include "icpscape/residuals/point_to_point.h"
+#include "icpscape/testing/residual_sampler.h"
 
 namespace icpscape {
 namespace {

@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "residuals/correspondence.h"
+#include "icpscape/residuals/correspondence.h"
 
 #include <gtest/gtest.h>
 
 #include <set>
 #include <string>
 
-#include "residuals/registry.h"
-#include "tests/support/residual_sampler.h"
+#include "icpscape/residuals/registry.h"
+#include "icpscape/testing/residual_sampler.h"
 
 namespace icpscape {
 namespace {

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "residuals/edge_to_line.h"
+#include "icpscape/residuals/edge_to_line.h"
 
-#include "tests/support/residual_test_suite.h"
+#include "icpscape/testing/residual_test_suite.h"
 
 namespace icpscape {
 namespace {

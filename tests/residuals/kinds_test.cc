@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "residuals/kinds.h"
+#include "icpscape/residuals/kinds.h"
 
 #include <gtest/gtest.h>
 
-#include "tests/support/residual_sampler.h"
+#include "icpscape/testing/residual_sampler.h"
 
 namespace icpscape {
 namespace {

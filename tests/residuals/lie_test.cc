@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "residuals/lie.h"
+#include "icpscape/residuals/lie.h"
 
 #include <ceres/jet.h>
 #include <gtest/gtest.h>

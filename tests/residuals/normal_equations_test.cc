@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "residuals/normal_equations.h"
+#include "icpscape/residuals/normal_equations.h"
 
 #include <gtest/gtest.h>
 

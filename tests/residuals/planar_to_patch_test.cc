@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "residuals/planar_to_patch.h"
+#include "icpscape/residuals/planar_to_patch.h"
 
 #include <ceres/loss_function.h>
 
-#include "tests/support/residual_test_suite.h"
+#include "icpscape/testing/residual_test_suite.h"
 
 namespace icpscape {
 

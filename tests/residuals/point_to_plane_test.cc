@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "residuals/point_to_plane.h"
+#include "icpscape/residuals/point_to_plane.h"
 
-#include "tests/support/residual_test_suite.h"
+#include "icpscape/testing/residual_test_suite.h"
 
 namespace icpscape {
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "residuals/registry.h"
+#include "icpscape/residuals/registry.h"
 
 #include <gtest/gtest.h>
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "residuals/symmetric.h"
+#include "icpscape/residuals/symmetric.h"
 
-#include "tests/support/residual_test_suite.h"
+#include "icpscape/testing/residual_test_suite.h"
 
 namespace icpscape {
 

@@ -2,7 +2,7 @@
 // Lanes at the baseline's width, which every machine has; each operation lane by lane against the
 // same one on doubles. The kernels of all levels are held against one another in tests/objective.
 #define ICPSCAPE_SIMD_WIDTH 4
-#include "src/simd/lanes.h"
+#include "icpscape/simd/lanes.h"
 
 #include <gtest/gtest.h>
 

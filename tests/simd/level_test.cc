@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "src/simd/level.h"
+#include "icpscape/simd/level.h"
 
 #include <gtest/gtest.h>
 
 #include <cstdlib>
 
-#include "src/common/error.h"
+#include "icpscape/common/error.h"
 #include "tests/support/simd_levels.h"
 
 namespace icpscape {

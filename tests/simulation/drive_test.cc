@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "src/simulation/drive.h"
+#include "icpscape/simulation/drive.h"
 
 #include <gtest/gtest.h>
 
 #include <algorithm>
 #include <cmath>
 
-#include "src/neighbors/neighbor_search.h"
-#include "src/simulation/simulator.h"
+#include "icpscape/neighbors/neighbor_search.h"
+#include "icpscape/simulation/simulator.h"
 
 namespace icpscape {
 namespace {

@@ -4,11 +4,11 @@
 #include <Eigen/Geometry>
 #include <cmath>
 
-#include "src/simulation/buildings.h"
-#include "src/simulation/mesh.h"
-#include "src/simulation/random.h"
-#include "src/simulation/ray_caster.h"
-#include "src/simulation/vehicles.h"
+#include "icpscape/simulation/buildings.h"
+#include "icpscape/simulation/mesh.h"
+#include "icpscape/simulation/random.h"
+#include "icpscape/simulation/ray_caster.h"
+#include "icpscape/simulation/vehicles.h"
 
 namespace icpscape {
 namespace {

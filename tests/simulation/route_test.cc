@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "src/simulation/route.h"
+#include "icpscape/simulation/route.h"
 
 #include <gtest/gtest.h>
 
 #include <cmath>
 
-#include "src/common/vehicle.h"
-#include "src/simulation/lidar.h"
+#include "icpscape/common/vehicle.h"
+#include "icpscape/simulation/lidar.h"
 
 namespace icpscape {
 namespace {

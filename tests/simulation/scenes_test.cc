@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "src/simulation/scenes.h"
-#include "src/neighbors/neighbor_search.h"
-#include "src/simulation/simulated_sequence.h"
+#include "icpscape/simulation/scenes.h"
+#include "icpscape/neighbors/neighbor_search.h"
+#include "icpscape/simulation/simulated_sequence.h"
 
 #include <gmock/gmock.h>
 
@@ -11,8 +11,8 @@
 #include <map>
 #include <set>
 
-#include "src/common/error.h"
-#include "src/simulation/simulator.h"
+#include "icpscape/common/error.h"
+#include "icpscape/simulation/simulator.h"
 
 namespace icpscape {
 namespace {

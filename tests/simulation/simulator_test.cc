@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "src/simulation/simulator.h"
+#include "icpscape/simulation/simulator.h"
 
 #include <gtest/gtest.h>
 

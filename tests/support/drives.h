@@ -4,8 +4,8 @@
 
 #include <vector>
 
-#include "src/simulation/drive.h"
-#include "src/simulation/simulator.h"
+#include "icpscape/simulation/drive.h"
+#include "icpscape/simulation/simulator.h"
 
 namespace icpscape::testing_support {
 

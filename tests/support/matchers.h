@@ -8,8 +8,8 @@
 #include <utility>
 #include <vector>
 
-#include "src/matching/matcher_kinds.h"
-#include "src/objective/objective.h"
+#include "icpscape/matching/matcher_kinds.h"
+#include "icpscape/objective/objective.h"
 
 namespace icpscape::testing_support {
 

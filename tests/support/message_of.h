@@ -4,7 +4,7 @@
 
 #include <string>
 
-#include "src/common/error.h"
+#include "icpscape/common/error.h"
 
 namespace icpscape::testing_support {
 

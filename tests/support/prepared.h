@@ -5,7 +5,7 @@
 #include <optional>
 #include <utility>
 
-#include "src/preparation/prepared_pair.h"
+#include "icpscape/preparation/prepared_pair.h"
 
 namespace icpscape::testing_support {
 

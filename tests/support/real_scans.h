@@ -8,7 +8,7 @@
 #include <filesystem>
 #include <string>
 
-#include "src/io/kitti.h"
+#include "icpscape/io/kitti.h"
 
 namespace icpscape {
 

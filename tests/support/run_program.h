@@ -17,7 +17,7 @@
 #include <utility>
 #include <vector>
 
-#include "src/common/text.h"
+#include "icpscape/common/text.h"
 #include "tests/support/temporary_folder.h"
 
 extern char** environ;

@@ -5,8 +5,8 @@
 #include <cmath>
 #include <random>
 
-#include "src/cloud/normals.h"
-#include "src/cloud/point_cloud.h"
+#include "icpscape/cloud/normals.h"
+#include "icpscape/cloud/point_cloud.h"
 
 namespace icpscape::testing_support {
 

@@ -7,7 +7,7 @@
 #include <cstdlib>
 #include <vector>
 
-#include "src/simd/level.h"
+#include "icpscape/simd/level.h"
 #include "tests/support/named.h"
 
 namespace icpscape::testing_support {

@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#ifndef ICPSCAPE_TESTS_SUPPORT_RESIDUAL_SAMPLER_H_
-#define ICPSCAPE_TESTS_SUPPORT_RESIDUAL_SAMPLER_H_
+#ifndef ICPSCAPE_TESTS_TESTING_RESIDUAL_SAMPLER_H_
+#define ICPSCAPE_TESTS_TESTING_RESIDUAL_SAMPLER_H_
 
 #include <random>
 #include <type_traits>
 
-#include "residuals/correspondence.h"
-#include "residuals/lie.h"
+#include "icpscape/residuals/correspondence.h"
+#include "icpscape/residuals/lie.h"
 
 namespace icpscape {
 
@@ -78,4 +78,4 @@ inline Correspondence ChangeFrames(const Correspondence& pair, const SE3d& G_sou
 
 }  // namespace icpscape
 
-#endif  // ICPSCAPE_TESTS_SUPPORT_RESIDUAL_SAMPLER_H_
+#endif  // ICPSCAPE_TESTS_TESTING_RESIDUAL_SAMPLER_H_

@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#ifndef ICPSCAPE_SRC_SIMULATION_DATASET_H_
-#define ICPSCAPE_SRC_SIMULATION_DATASET_H_
+#ifndef ICPSCAPE_SRC_IO_DATASET_H_
+#define ICPSCAPE_SRC_IO_DATASET_H_
 
 #include <filesystem>
 #include <functional>
 #include <string>
 #include <vector>
 
-#include "src/cloud/point_cloud.h"
+#include "icpscape/cloud/point_cloud.h"
 
 namespace icpscape {
 
@@ -39,4 +39,4 @@ DatasetSummary WriteDataset(const DatasetOptions& options, const std::vector<SE3
 
 }  // namespace icpscape
 
-#endif  // ICPSCAPE_SRC_SIMULATION_DATASET_H_
+#endif  // ICPSCAPE_SRC_IO_DATASET_H_

@@ -1,18 +1,18 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "src/simulation/dataset.h"
+#include "icpscape/io/dataset.h"
 
 #include <array>
 #include <cstdio>
 #include <fstream>
 #include <nlohmann/json.hpp>
 
-#include "src/common/error.h"
-#include "src/common/text.h"
-#include "src/io/kitti_writer.h"
-#include "src/io/output.h"
-#include "src/io/point_files.h"
-#include "src/io/sha256.h"
-#include "src/simulation/scenes.h"
+#include "icpscape/cloud/scan_sequence.h"
+#include "icpscape/common/error.h"
+#include "icpscape/common/text.h"
+#include "icpscape/io/kitti_writer.h"
+#include "icpscape/io/output.h"
+#include "icpscape/io/point_files.h"
+#include "icpscape/io/sha256.h"
 
 namespace icpscape {
 namespace {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "src/odometry/frame_record.h"
+#include "icpscape/resumable/frame_record.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -9,7 +9,7 @@
 #include <limits>
 #include <random>
 
-#include "src/common/text.h"
+#include "icpscape/common/text.h"
 #include "tests/support/message_of.h"
 
 namespace icpscape {
@@ -105,7 +105,7 @@ TEST(FrameRecord, RefusesGarbage) {
   ASSERT_EQ(words.size(), 1U + 10U + 12U + 12U);
   const auto refused = [](const std::string& text) {
     return MessageOf([&] { ParseFrameRecord(text, "the place"); }) ==
-           "the place: no record of a scan; expected a journal of icpscape-odometry.";
+           "the place: no record of a scan; expected a journal of an odometry.";
   };
   EXPECT_TRUE(refused(""));
   EXPECT_TRUE(refused("garbage"));

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "src/odometry/resumable.h"
+#include "icpscape/resumable/resumable_odometry.h"
 
 #include <gtest/gtest.h>
 
-#include "src/common/error.h"
-#include "src/io/kitti_writer.h"
+#include "icpscape/common/error.h"
+#include "icpscape/io/kitti_writer.h"
 #include "tests/odometry/drives.h"
 #include "tests/support/message_of.h"
 #include "tests/support/temporary_folder.h"

@@ -1,16 +1,16 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#ifndef ICPSCAPE_SRC_ODOMETRY_RESUMABLE_H_
-#define ICPSCAPE_SRC_ODOMETRY_RESUMABLE_H_
+#ifndef ICPSCAPE_SRC_RESUMABLE_RESUMABLE_ODOMETRY_H_
+#define ICPSCAPE_SRC_RESUMABLE_RESUMABLE_ODOMETRY_H_
 
 #include <functional>
 #include <optional>
 #include <vector>
 
-#include "src/io/journal.h"
-#include "src/io/sequences.h"
-#include "src/odometry/frame_record.h"
-#include "src/odometry/odometry.h"
-#include "src/odometry/voxel_map.h"
+#include "icpscape/io/journal.h"
+#include "icpscape/io/sequences.h"
+#include "icpscape/odometry/odometry.h"
+#include "icpscape/odometry/voxel_map.h"
+#include "icpscape/resumable/frame_record.h"
 
 namespace icpscape {
 
@@ -61,4 +61,4 @@ class ResumableOdometry {
 
 }  // namespace icpscape
 
-#endif  // ICPSCAPE_SRC_ODOMETRY_RESUMABLE_H_
+#endif  // ICPSCAPE_SRC_RESUMABLE_RESUMABLE_ODOMETRY_H_

@@ -5,8 +5,8 @@
 #include <cstdio>
 #include <random>
 
-#include "residuals/adapters/ceres.h"
-#include "residuals/point_to_plane.h"
+#include <icpscape/residuals/adapters/ceres.h>
+#include <icpscape/residuals/point_to_plane.h>
 
 int main() {
   using namespace icpscape;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "src/odometry/frame_record.h"
+#include "icpscape/resumable/frame_record.h"
 
 #include <algorithm>
 #include <cmath>
@@ -7,8 +7,8 @@
 #include <type_traits>
 #include <vector>
 
-#include "src/common/error.h"
-#include "src/common/text.h"
+#include "icpscape/common/error.h"
+#include "icpscape/common/text.h"
 
 namespace icpscape {
 namespace {
@@ -97,7 +97,7 @@ FrameRecord ParseFrameRecord(const std::string& text, const std::string& place) 
   record.result.T_world_lidar = pose();
   record.result.motion = pose();
   if (!good || next != words.size()) {
-    throw InputError(place + ": no record of a scan; expected a journal of icpscape-odometry.");
+    throw InputError(place + ": no record of a scan; expected a journal of an odometry.");
   }
   return record;
 }

@@ -1,16 +1,16 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "src/simulation/dataset.h"
+#include "icpscape/io/dataset.h"
 
 #include <gmock/gmock.h>
 
 #include <filesystem>
 #include <fstream>
 
-#include "src/common/error.h"
-#include "src/io/kitti.h"
-#include "src/io/sequences.h"
-#include "src/simulation/scenes.h"
-#include "src/simulation/simulated_sequence.h"
+#include "icpscape/common/error.h"
+#include "icpscape/io/kitti.h"
+#include "icpscape/io/sequences.h"
+#include "icpscape/simulation/scenes.h"
+#include "icpscape/simulation/simulated_sequence.h"
 #include "tests/support/run_program.h"
 
 namespace icpscape {

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#ifndef ICPSCAPE_TESTS_SUPPORT_RESIDUAL_TEST_SUITE_H_
-#define ICPSCAPE_TESTS_SUPPORT_RESIDUAL_TEST_SUITE_H_
+#ifndef ICPSCAPE_TESTS_TESTING_RESIDUAL_TEST_SUITE_H_
+#define ICPSCAPE_TESTS_TESTING_RESIDUAL_TEST_SUITE_H_
 
 // The tests that every metric must pass, for ours and for users' own:
 //
-//   #include "tests/support/residual_test_suite.h"
+//   #include "icpscape/testing/residual_test_suite.h"
 //   INSTANTIATE_TYPED_TEST_SUITE_P(PointToPlane, ResidualTest, icpscape::PointToPlane);
 //
 // Derivatives are held against automatic and numeric ones, against the Taylor expansion (which
@@ -20,10 +20,10 @@
 #include <cmath>
 #include <vector>
 
-#include "residuals/adapters/ceres.h"
-#include "residuals/correspondence.h"
-#include "residuals/lie.h"
-#include "tests/support/residual_sampler.h"
+#include "icpscape/residuals/adapters/ceres.h"
+#include "icpscape/residuals/correspondence.h"
+#include "icpscape/residuals/lie.h"
+#include "icpscape/testing/residual_sampler.h"
 
 namespace icpscape {
 
@@ -325,4 +325,4 @@ REGISTER_TYPED_TEST_SUITE_P(ResidualTest, JacobianMatchesAutodiff,
 
 }  // namespace icpscape
 
-#endif  // ICPSCAPE_TESTS_SUPPORT_RESIDUAL_TEST_SUITE_H_
+#endif  // ICPSCAPE_TESTS_TESTING_RESIDUAL_TEST_SUITE_H_

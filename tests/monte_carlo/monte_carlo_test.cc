@@ -1,16 +1,16 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "src/covariance/monte_carlo.h"
+#include "icpscape/monte_carlo/monte_carlo.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include <cmath>
 
-#include "src/common/error.h"
-#include "src/objective/loss.h"
-#include "src/simulation/scenes.h"
-#include "src/simulation/simulated_sequence.h"
-#include "src/simulation/simulator.h"
+#include "icpscape/common/error.h"
+#include "icpscape/objective/loss.h"
+#include "icpscape/simulation/scenes.h"
+#include "icpscape/simulation/simulated_sequence.h"
+#include "icpscape/simulation/simulator.h"
 #include "tests/support/message_of.h"
 #include "tests/support/prepared.h"
 

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#ifndef ICPSCAPE_SRC_ODOMETRY_FRAME_RECORD_H_
-#define ICPSCAPE_SRC_ODOMETRY_FRAME_RECORD_H_
+#ifndef ICPSCAPE_SRC_RESUMABLE_FRAME_RECORD_H_
+#define ICPSCAPE_SRC_RESUMABLE_FRAME_RECORD_H_
 
 #include <string>
 
-#include "src/odometry/odometry.h"
+#include "icpscape/odometry/odometry.h"
 
 namespace icpscape {
 
@@ -23,4 +23,4 @@ FrameRecord ParseFrameRecord(const std::string& text, const std::string& place);
 
 }  // namespace icpscape
 
-#endif  // ICPSCAPE_SRC_ODOMETRY_FRAME_RECORD_H_
+#endif  // ICPSCAPE_SRC_RESUMABLE_FRAME_RECORD_H_

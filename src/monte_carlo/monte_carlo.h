@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#ifndef ICPSCAPE_SRC_COVARIANCE_MONTE_CARLO_H_
-#define ICPSCAPE_SRC_COVARIANCE_MONTE_CARLO_H_
+#ifndef ICPSCAPE_SRC_MONTE_CARLO_MONTE_CARLO_H_
+#define ICPSCAPE_SRC_MONTE_CARLO_MONTE_CARLO_H_
 
 #include <array>
 #include <cstdint>
@@ -9,12 +9,12 @@
 #include <string>
 #include <vector>
 
-#include "src/common/names.h"
-#include "src/covariance/consistency.h"
-#include "src/covariance/registration_uncertainty.h"
-#include "src/minimizer/random_starts.h"
-#include "src/objective/objective_set.h"
-#include "src/simulation/lidar.h"
+#include "icpscape/common/names.h"
+#include "icpscape/covariance/consistency.h"
+#include "icpscape/covariance/registration_uncertainty.h"
+#include "icpscape/minimizer/random_starts.h"
+#include "icpscape/objective/objective_set.h"
+#include "icpscape/simulation/lidar.h"
 
 namespace icpscape {
 
@@ -86,4 +86,4 @@ Calibration Calibrate(const std::vector<DrawResult>& draws);
 
 }  // namespace icpscape
 
-#endif  // ICPSCAPE_SRC_COVARIANCE_MONTE_CARLO_H_
+#endif  // ICPSCAPE_SRC_MONTE_CARLO_MONTE_CARLO_H_

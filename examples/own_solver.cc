@@ -4,8 +4,8 @@
 #include <cstdio>
 #include <random>
 
-#include "residuals/normal_equations.h"
-#include "residuals/point_to_plane.h"
+#include <icpscape/residuals/normal_equations.h>
+#include <icpscape/residuals/point_to_plane.h>
 
 int main() {
   using namespace icpscape;

@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "src/odometry/resumable.h"
+#include "icpscape/resumable/resumable_odometry.h"
 
 #include <chrono>
 #include <utility>
 
-#include "src/common/error.h"
-#include "src/io/sha256.h"
+#include "icpscape/common/error.h"
+#include "icpscape/io/sha256.h"
 
 namespace icpscape {
 namespace {

@@ -1,14 +1,15 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "src/covariance/monte_carlo.h"
+#include "icpscape/monte_carlo/monte_carlo.h"
 
 #include <algorithm>
 #include <mutex>
 #include <utility>
 
-#include "src/common/error.h"
-#include "src/common/parallel.h"
-#include "src/simulation/scenes.h"
-#include "src/simulation/simulator.h"
+#include "icpscape/cloud/scan_sequence.h"
+#include "icpscape/common/error.h"
+#include "icpscape/common/parallel.h"
+#include "icpscape/simulation/scenes.h"
+#include "icpscape/simulation/simulator.h"
 
 namespace icpscape {
 namespace {

@@ -1,0 +1,37 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "icpscape/api/covariance.h"
+
+#include <utility>
+
+namespace icpscape {
+
+PairCovarianceOptions::PairCovarianceOptions() {
+  metrics = {"point_to_point", "point_to_plane", "symmetric"};
+}
+
+const std::optional<Mat6>& CovarianceResult::Of(Estimator estimator) const {
+  return covariances.at(static_cast<std::size_t>(estimator)).covariance;
+}
+
+std::vector<CovarianceResult> Covariance(PointCloud source, PointCloud target,
+                                         const PairCovarianceOptions& options) {
+  options.estimators.Check();
+  const ObjectiveSet set = ObjectivesOf(std::move(source), std::move(target), options);
+  std::vector<CovarianceResult> results;
+  for (const Objective& objective : set.objectives()) {
+    RegistrationUncertainty found = RegisterWithUncertainty(
+        objective, options.T_initial, options.estimators, options.length_scale_m, options.threads);
+    CovarianceResult result;
+    result.metric = objective.metric().name;
+    result.T_target_source = found.registration.T_target_source();
+    result.termination = found.registration.termination;
+    result.covariances = std::move(found.covariances);
+    result.directions = found.directions;
+    result.degeneracy = std::move(found.verdicts);
+    result.warning = CovarianceWarning(result.metric);
+    results.push_back(std::move(result));
+  }
+  return results;
+}
+
+}  // namespace icpscape

@@ -1,0 +1,59 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#ifndef ICPSCAPE_SRC_API_COVARIANCE_H_
+#define ICPSCAPE_SRC_API_COVARIANCE_H_
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "icpscape/api/pair.h"
+#include "icpscape/covariance/registration_uncertainty.h"
+
+namespace icpscape {
+
+/// Of Covariance.
+struct PairCovarianceOptions : PairOptions {
+  /// point_to_point, point_to_plane and symmetric.
+  PairCovarianceOptions();
+
+  /// What the estimators assume about the noise.
+  CovarianceOptions estimators;
+  /// Lever arm at which rotations count as lengths (m), in `directions`.
+  double length_scale_m = 10;
+};
+
+/// How sure the registration by one metric is.
+struct CovarianceResult {
+  std::string metric;
+  SE3d T_target_source;
+  Termination termination = Termination::kFailure;
+
+  /// What each estimator says, in the order of AllOf<Estimator>.
+  std::vector<EstimatedCovariance> covariances;
+  /// The 6x6 covariance of xi in T_true = T_target_source Exp(xi), xi = [omega; v]: rotation about
+  /// x, y, z (rad), then translation along x, y, z (m), in the frame of the source. Nothing where
+  /// the pairs do not determine all six directions, or the estimator has too little to go by:
+  /// EstimatedCovariance::reason says which.
+  const std::optional<Mat6>& Of(Estimator estimator) const;
+
+  EigenDirections directions;       ///< Of the Gauss-Newton Hessian, the weakest first.
+  std::vector<Verdict> degeneracy;  ///< The published rules, side by side; see degeneracy.h.
+  std::string warning;  ///< Where the estimators are known to be wrong for the metric; else empty.
+};
+
+/// Registers two clouds by each metric, to 10 micrometres, and says how sure each result is: the
+/// covariances of six estimators (formulas at Estimator), and the directions that the pairs
+/// determine badly.
+///
+/// Clouds are in metres, each in the frame of its sensor; see Register.
+///
+/// icpscape-covariance with the same options has the same bits in its tables.
+///
+/// Throws what Register throws for options and clouds, and ComputationError where a registration
+/// has no usable result.
+std::vector<CovarianceResult> Covariance(PointCloud source, PointCloud target,
+                                         const PairCovarianceOptions& options = {});
+
+}  // namespace icpscape
+
+#endif  // ICPSCAPE_SRC_API_COVARIANCE_H_

@@ -1,0 +1,50 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#ifndef ICPSCAPE_SRC_API_LANDSCAPE_H_
+#define ICPSCAPE_SRC_API_LANDSCAPE_H_
+
+#include <vector>
+
+#include "icpscape/api/pair.h"
+#include "icpscape/landscape/curve.h"
+
+namespace icpscape {
+
+/// Of Landscape.
+struct LandscapeOptions : PairOptions {
+  /// point_to_point, point_to_plane and symmetric.
+  LandscapeOptions();
+
+  PathKind path = PathKind::kLerpSlerp;
+  /// From which u to which, how many poses, and whether pairs are frozen. Its `threads` is not
+  /// used.
+  CurveOptions curve;
+};
+
+/// Objective functions along a path of poses.
+struct LandscapeResult {
+  /// One for each metric, in their order. Curve::Minimum gives the lowest point.
+  std::vector<Curve> curves;
+  /// Pose(u) of each point: u = 0 is T_initial, u = 1 the reference.
+  Path path;
+};
+
+/// Evaluates the objective functions of two clouds along a path of poses T_u through T_initial
+/// (u = 0) and T_reference (u = 1), and draws nothing. At each pose every point is matched anew, as
+/// ICP does, and
+///   rmse(u) = sqrt(eps(T_u) / n(T_u))
+/// with eps as the paper prints it (sum |r|^2 for points, planes and symmetric metrics) and n the
+/// number of pairs; CurvePoint has the cost that Register minimises, and slopes d rmse / du.
+///
+/// T_reference is the motion that is believed to be true: p_target = T_reference * p_source.
+/// Clouds are in metres, each in the frame of its sensor; see Register.
+///
+/// icpscape-landscape with the same options has the same bits in curves.csv.
+///
+/// Throws what Register throws for options and clouds, and ComputationError where a pose leaves a
+/// metric without pairs.
+LandscapeResult Landscape(PointCloud source, PointCloud target, const SE3d& T_reference,
+                          const LandscapeOptions& options = {});
+
+}  // namespace icpscape
+
+#endif  // ICPSCAPE_SRC_API_LANDSCAPE_H_

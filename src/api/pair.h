@@ -1,0 +1,42 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#ifndef ICPSCAPE_SRC_API_PAIR_H_
+#define ICPSCAPE_SRC_API_PAIR_H_
+
+#include <string>
+#include <vector>
+
+#include "icpscape/objective/objective_set.h"
+#include "icpscape/preparation/prepared_scan.h"
+
+namespace icpscape {
+
+/// What Register, Landscape and Covariance are told about a pair of clouds. The defaults are those
+/// of the programs.
+struct PairOptions {
+  /// Objective functions by name; see docs/metrics.md, and icpscape-list_metrics.
+  std::vector<std::string> metrics;
+  /// What is done to both clouds first: voxels, normals, edge and planar points.
+  PreparationOptions preparation;
+  /// Which points form pairs, and the loss on their residuals.
+  ObjectiveSetOptions objective;
+  /// Where registration starts, and u = 0 of a landscape.
+  SE3d T_initial;
+  /// No result depends on it.
+  int threads = 1;
+
+  /// Throws UsageError naming what is out of range.
+  void Check() const;
+};
+
+/// The objectives of the metrics over two clouds, which are checked and prepared; what the three
+/// calls begin with. Points that no registration can use are dropped: those that are not finite or
+/// beyond 1000 km, and those at the origin. Normals are estimated; ones in the clouds are replaced.
+///
+/// Throws UsageError for options out of range, InputError where an array of a cloud has another
+/// length than x, or where edge and planar points are asked for and scan lines cannot be found, and
+/// ComputationError where a metric has no source point.
+ObjectiveSet ObjectivesOf(PointCloud source, PointCloud target, const PairOptions& options);
+
+}  // namespace icpscape
+
+#endif  // ICPSCAPE_SRC_API_PAIR_H_

@@ -1,0 +1,37 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "icpscape/api/register.h"
+
+#include <cmath>
+#include <utility>
+
+#include "icpscape/objective/joint_objective.h"
+
+namespace icpscape {
+
+RegisterOptions::RegisterOptions() {
+  metrics = {"point_to_plane"};
+  minimizer.min_step_rad = 1e-3 * M_PI / 180;
+}
+
+RegisterResult Register(PointCloud source, PointCloud target, const RegisterOptions& options) {
+  const ObjectiveSet set = ObjectivesOf(std::move(source), std::move(target), options);
+  const JointObjective objective(set.objectives(), options.weights);
+  MinimizerOptions minimizer = options.minimizer;
+  minimizer.threads = options.threads;
+  MinimizerSummary summary = Minimize(objective, options.T_initial, minimizer);
+  RegisterResult result;
+  result.T_target_source = options.T_initial;
+  result.termination = summary.termination;
+  result.message = std::move(summary.message);
+  result.iterates = std::move(summary.iterates);
+  if (result.Usable()) {
+    const Iterate& last = result.iterates.back();
+    result.T_target_source = last.T_target_source;
+    result.cost = last.cost;
+    result.rmse = last.rmse;
+    result.num_pairs = last.n;
+  }
+  return result;
+}
+
+}  // namespace icpscape
