@@ -179,7 +179,7 @@ TEST_F(Apps, FrameZeroHasNoPriorButATarget) {
   }
   ExpectRefusal(RunProgram("landscape",
                            Kitti({"--frame=0", "--target_frame=1", "--initial=previous_motion"})),
-                1, "expected an input that knows the motion before");
+                1, "expected true poses, and a scan before each of the two");
 }
 
 TEST_F(Apps, CapsRecoverTheRingsTheyNeed) {

@@ -275,14 +275,15 @@ class RecordingMatcher final : public Matcher {
   explicit RecordingMatcher(const Matcher& inner)
       : Matcher(inner.searchable_source(), inner.searchable_target()), inner_(inner) {}
   unsigned Provides() const override { return inner_.Provides(); }
-  void MatchPart(const SE3d& T, std::size_t begin, std::size_t end,
-                 Matches* matches) const override {
-    asked_.push_back(T);
-    inner_.MatchPart(T, begin, end, matches);
-  }
   const std::vector<SE3d>& asked() const { return asked_; }
 
  private:
+  void FindPart(const SE3d& T, std::size_t begin, std::size_t end,
+                Matches* matches) const override {
+    asked_.push_back(T);
+    inner_.MatchPart(T, begin, end, matches);
+  }
+
   const Matcher& inner_;
   mutable std::vector<SE3d> asked_;
 };
@@ -294,7 +295,8 @@ TEST_F(SmallRoom, RematchesAtStepsThatMovePointsAtTenMetresAlike) {
   const RecordingMatcher matcher(inner);
   CovarianceOptions options;
   options.rematching_step_m = 0.03;
-  SumForCovariance(Objective("point_to_plane", matcher), kMotion, options, 1);
+  const Objective objective("point_to_plane", matcher);
+  SumForCovariance(objective, kMotion, options, 1);
   for (int axis = 0; axis < 6; ++axis) {
     for (const double sign : {1.0, -1.0}) {
       const Vec6 step = sign * (axis < 3 ? 0.003 : 0.03) * Vec6::Unit(axis);

@@ -116,16 +116,17 @@ class CountingMatcher final : public Matcher {
   explicit CountingMatcher(const Matcher& inner)
       : Matcher(inner.searchable_source(), inner.searchable_target()), inner_(inner) {}
   unsigned Provides() const override { return inner_.Provides(); }
-  void MatchPart(const SE3d& T, std::size_t begin, std::size_t end,
-                 Matches* matches) const override {
-    points_ += end - begin;
-    inner_.MatchPart(T, begin, end, matches);
-  }
   double passes() const {
     return static_cast<double>(points_) / static_cast<double>(source().size());
   }
 
  private:
+  void FindPart(const SE3d& T, std::size_t begin, std::size_t end,
+                Matches* matches) const override {
+    points_ += end - begin;
+    inner_.MatchPart(T, begin, end, matches);
+  }
+
   const Matcher& inner_;
   mutable std::atomic<std::size_t> points_{0};
 };

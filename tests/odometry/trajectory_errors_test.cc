@@ -6,6 +6,7 @@
 
 #include <cmath>
 
+#include "icpscape/io/trajectory.h"
 #include "tests/odometry/trajectories.h"
 #include "tests/support/real_scans.h"
 
