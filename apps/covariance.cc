@@ -7,7 +7,9 @@
 #include "apps/flags/objective.h"
 #include "apps/flags/pair.h"
 #include "apps/flags/pair_filters.h"
+#include "apps/flags/verdict.h"
 #include "apps/reports/covariance.h"
+#include "apps/reports/verdict.h"
 #include "apps/run/app.h"
 #include "apps/run/progress.h"
 #include "apps/run/run.h"
@@ -17,19 +19,25 @@ namespace {
 
 // The report on the pair itself; returns its title.
 std::string ReportPair(const std::vector<std::string>& metrics, CovarianceReport* report,
-                       Run* run) {
+                       std::vector<NamedVerdict>* verdicts, Run* run) {
   const CovarianceOptions options = CovarianceFromFlags();
   Manifest* const manifest = run->manifest();
   ScanPair pair = ReadPair(manifest);
   const SE3d T_initial = InitialPose(pair, manifest);
   const PreparedPair scans = PrepareFromFlags(metrics, &pair, manifest);
   const ObjectiveSet set(FilterFromFlags(scans, pair, manifest), metrics, ObjectiveSetFromFlags());
+  MinimizerOptions minimizer = PreciseMinimizer();
+  minimizer.threads = ThreadsFromFlags();
+  VerdictOptions judge = VerdictFromFlags(minimizer);
+  judge.cluster_m = options.cluster_m;
   for (const Objective& objective : set.objectives()) {
-    report->AddPair(objective.metric().name,
-                    RegisterWithUncertainty(objective, T_initial, options, LengthScaleFromFlags(),
-                                            ThreadsFromFlags()),
-                    options.cluster_m, manifest);
+    const RegistrationUncertainty found = RegisterWithUncertainty(
+        objective, T_initial, options, LengthScaleFromFlags(), ThreadsFromFlags());
+    verdicts->emplace_back(objective.metric().name,
+                           JudgePose(objective, found.registration, judge));
+    report->AddPair(verdicts->back(), found, options.cluster_m, manifest);
   }
+  WriteVerdicts(*verdicts, run);
   report->WritePair(run);
   manifest->AddTiming("pair");
   return pair.title;
@@ -60,14 +68,18 @@ void Covariance() {
   CheckPairFlags(metrics, false);
   CheckFilterFlags();
   LengthScaleFromFlags();
+  VerdictFromFlags(PreciseMinimizer());
+  AcceptedFromFlags();
   const MonteCarloOptions draws = MonteCarloFromFlags();
   Run run;
   CovarianceReport report;
-  const std::string title = ReportPair(metrics, &report, &run);
+  std::vector<NamedVerdict> verdicts;
+  const std::string title = ReportPair(metrics, &report, &verdicts, &run);
   if (draws.draws > 0) {
     ReportDraws(draws, title, &report, &run);
   }
   run.Finish();
+  RequireAccepted(verdicts, AcceptedFromFlags());
 }
 
 }  // namespace

@@ -8,6 +8,7 @@
 
 #include "apps/flags/drive.h"
 #include "apps/flags/odometry.h"
+#include "apps/flags/verdict.h"
 #include "apps/reports/odometry.h"
 #include "apps/run/app.h"
 #include "apps/run/progress.h"
@@ -58,6 +59,7 @@ void RunOdometry() {
   SetDefaultsOfMode();
   CheckDriveFlags();
   const OdometryOptions options = OdometryFromFlags();
+  AcceptedFromFlags();
   RequireAtLeastZero("write_map_voxel_m", FLAGS_write_map_voxel_m);
   Run run;
   const ScanSequence sequence = DriveFromFlags(run.manifest());
@@ -76,6 +78,9 @@ void RunOdometry() {
   DrawTrajectories({trajectory}, TitleWithFlags(sequence.title + ", odometry"), &run);
   run.manifest()->AddTiming("results");
   run.Finish();
+  if (!AcceptedFromFlags().undetermined) {
+    RequireRegistered(odometry.records());
+  }
 }
 
 }  // namespace

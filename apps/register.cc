@@ -11,8 +11,10 @@
 #include "apps/flags/pair.h"
 #include "apps/flags/pair_filters.h"
 #include "apps/flags/starts.h"
+#include "apps/flags/verdict.h"
 #include "apps/reports/ground_truth_check.h"
 #include "apps/reports/registration.h"
+#include "apps/reports/verdict.h"
 #include "apps/run/app.h"
 #include "apps/run/progress.h"
 #include "apps/run/run.h"
@@ -30,7 +32,8 @@ void CheckFlags() {
   CheckFilterFlags();
   FeaturesFromFlags();
   ObjectiveSetFromFlags();
-  MinimizerFromFlags();
+  VerdictFromFlags(MinimizerFromFlags());
+  AcceptedFromFlags();
   WeightsFromFlags();
   StartsFromFlags();
   RequireFlag(FLAGS_starts >= 0 && FLAGS_starts <= 1000000, "starts", std::to_string(FLAGS_starts),
@@ -68,11 +71,17 @@ void Register() {
   const JointObjective objective(set.objectives(), WeightsFromFlags());
   const MinimizerSummary summary = Minimize(objective, T_initial, options);
   manifest->AddTiming("register");
-  if (!summary.Usable()) {
-    throw ComputationError(objective.Name() + ": " + summary.message);
+  const std::vector<NamedVerdict> verdicts = {
+      {objective.Name(), JudgePose(objective, summary, VerdictFromFlags(options))}};
+  const Verdict& verdict = verdicts.front().second;
+  manifest->AddTiming("verdict");
+  if (!verdict.HasPose()) {
+    throw ComputationError(objective.Name() + ": " + verdict.no_pose);
   }
   const SE3d& T = summary.T_target_source();
   ReportRegistration(objective.Name(), summary, &run);
+  PrintVerdict(verdict);
+  WriteVerdicts(verdicts, &run);
   manifest->SetResult("searches_built", static_cast<double>(SearchesBuilt()));
   WritePly(run.File("aligned.ply"), scans.source.cloud().Transformed(T));
   if (pair.T_ground_truth) {
@@ -90,6 +99,7 @@ void Register() {
            "iterates");
   manifest->AddTiming("figures");
   run.Finish();
+  RequireAccepted(verdicts, AcceptedFromFlags());
 }
 
 }  // namespace

@@ -13,8 +13,7 @@ int main() {
   const RegisterResult plain = Register(corner.source, corner.target);
   std::printf("%s\n", plain.message.c_str());
 
-  // The same with options: another metric, pairs up to 1 m, a loss, a start, and somebody who
-  // watches.
+  // The same with options: another metric, pairs up to 1 m, a loss, a start and an observer.
   RegisterOptions options;
   options.metrics = {"symmetric"};
   options.objective.matching.max_distance_m = 1;

@@ -7,10 +7,10 @@
 #include "lie.h"
 
 // What a quantity of a correspondence can be. Each kind says what type it is (Value), how many
-// numbers stand for it where pairs are stored (kSize), how the two turn into one another (Make
-// takes a function from 0 to kSize - 1 to its numbers; NumberOf), and how it looks from another
-// frame into which G = [R t] leads (InFrame). Those that a cloud can be without at some of its
-// points have a Mark: three numbers that are all 0 where there is none.
+// numbers hold it where pairs are stored (kSize), how the two convert into each other (Make takes a
+// function from 0 to kSize - 1 to its numbers; NumberOf), and how it looks from another frame into
+// which G = [R t] leads (InFrame). Those that a cloud can be without at some of its points have a
+// Mark: three numbers that are all 0 where there is none.
 namespace icpscape::kind {
 
 namespace internal {

@@ -21,7 +21,7 @@ import sys
 WANTED = []
 
 # Files and columns with another name in an older version: name there, name now.
-RENAMED = {"iterations.csv": "iterates.csv"}
+RENAMED = {"iterations.csv": "iterates.csv", "verdicts.csv": "degeneracy.csv"}
 
 # Columns that are not compared, by file. Times differ from run to run; titles and claims are text.
 LEFT_OUT = {

@@ -11,6 +11,7 @@
 #include "apps/flags/minimizer.h"
 #include "apps/flags/objective.h"
 #include "apps/flags/preparation.h"
+#include "apps/flags/verdict.h"
 #include "apps/run/flag.h"
 #include "apps/run/run_flags.h"
 #include "icpscape/common/text.h"
@@ -32,10 +33,11 @@ DEFINE_int32(map_every, 10, "With two_stage: number of scans from one mapping st
 DEFINE_string(prediction, "constant_velocity",
               "Predicted pose, for the start and the filters: constant_velocity (the motion of the "
               "scan before) or none (the identity).");
-DEFINE_double(
-    adaptive_gate_m, 0,
-    "If positive: the gate is three times the RMS error of the predicted poses so far "
-    "(KISS-ICP), instead of --max_distance_m; this is the assumed error of the first (m).");
+DEFINE_double(adaptive_gate_m, 0,
+              "If positive: the gate is three times the RMS error of the predicted poses so far "
+              "(KISS-ICP), at most five times this and at most --max_distance_m; this is the "
+              "assumed error of "
+              "the first (m).");
 
 namespace icpscape {
 
@@ -61,6 +63,7 @@ OdometryOptions OdometryFromFlags() {
   options.filters = FiltersFromFlags();
   options.objective = ObjectiveSetFromFlags();
   options.minimizer = MinimizerFromFlags();
+  options.verdict = VerdictFromFlags(options.minimizer);
   RequireFlag(FLAGS_map_voxel_m > 0 && std::isfinite(FLAGS_map_voxel_m), "map_voxel_m",
               Number(FLAGS_map_voxel_m), "a positive length");
   RequireFlag(FLAGS_map_radius_m > 0, "map_radius_m", Number(FLAGS_map_radius_m),

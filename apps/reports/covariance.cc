@@ -47,7 +47,8 @@ void AppendUpperTriangle(const Mat6& matrix, std::vector<std::string>* row) {
 void PrintDeviations(const char* name, const Vec6& deviation) {
   std::printf("  %-19s", name);
   for (int i = 0; i < 6; ++i) {
-    std::printf(" %8.3f", deviation[i] * (i < 3 ? kMillidegrees : 1000));
+    const double value = deviation[i] * (i < 3 ? kMillidegrees : 1000);
+    std::printf(" %8s", std::isnan(value) ? "none" : Fixed(value, 3).c_str());
   }
   std::printf("\n");
 }
@@ -65,7 +66,7 @@ Table DirectionTable() {
   return Table(columns);
 }
 
-Table VerdictTable() {
+Table JudgementTable() {
   std::vector<std::string> columns = {"metric", "rule",      "source",
                                       "value",  "threshold", "localizability"};
   AppendComponents("direction_", false, &columns);
@@ -88,20 +89,22 @@ Table CalibrationTable() {
   return Table(columns);
 }
 
-void ReportCovariances(const std::string& metric, const std::vector<EstimatedCovariance>& all,
+void ReportCovariances(const NamedVerdict& verdict, const std::vector<EstimatedCovariance>& all,
                        Table* table) {
   std::printf("standard deviations   rx (mdeg)       ry       rz  tx (mm)       ty       tz\n");
   for (const EstimatedCovariance& entry : all) {
     const char* name = NameOf(entry.estimator);
     const Mat6 values =
         entry.covariance.value_or(Mat6(Mat6::Constant(std::numeric_limits<double>::quiet_NaN())));
-    const Vec6 deviation = values.diagonal().cwiseSqrt();
+    // Along an undetermined axis no estimator knows a deviation, whatever it says.
+    const Vec6 deviation = verdict.second.deviation.array().isNaN().select(
+        std::numeric_limits<double>::quiet_NaN(), values.diagonal().cwiseSqrt());
     if (entry.covariance) {
       PrintDeviations(name, deviation);
     } else {
       std::printf("  %-19s none: %s.\n", name, entry.reason.c_str());
     }
-    std::vector<std::string> row = {metric, name};
+    std::vector<std::string> row = {verdict.first, name};
     AppendNumbers(deviation, &row);
     AppendUpperTriangle(values, &row);
     table->AddRow(std::move(row));
@@ -122,33 +125,33 @@ void ReportDirections(const std::string& metric, const EigenDirections& eigen, T
               eigen.directions(4, 0), eigen.directions(5, 0));
 }
 
-void ReportVerdicts(const std::string& metric, const std::vector<Verdict>& verdicts, Table* table,
-                    Manifest* manifest) {
+void ReportJudgements(const std::string& metric, const std::vector<Judgement>& judgements,
+                      Table* table, Manifest* manifest) {
   std::printf("degeneracy             degenerate  partial  weakest  degenerate where\n");
-  // Six verdicts to a rule.
-  for (std::size_t first = 0; first < verdicts.size(); first += 6) {
+  // Six judgements to a rule.
+  for (std::size_t first = 0; first < judgements.size(); first += 6) {
     int degenerate = 0;
     int partial = 0;
-    const bool above = verdicts[first].rule == "dcreg";  // A condition number; else a strength.
-    double weakest = verdicts[first].value;
+    const bool above = judgements[first].rule == "dcreg";  // A condition number; else a strength.
+    double weakest = judgements[first].value;
     for (std::size_t i = first; i < first + 6; ++i) {
-      const Verdict& verdict = verdicts[i];
-      degenerate += verdict.localizability == Localizability::kNone ? 1 : 0;
-      partial += verdict.localizability == Localizability::kPartial ? 1 : 0;
-      weakest = above ? std::max(weakest, verdict.value) : std::min(weakest, verdict.value);
+      const Judgement& judgement = judgements[i];
+      degenerate += judgement.localizability == Localizability::kNone ? 1 : 0;
+      partial += judgement.localizability == Localizability::kPartial ? 1 : 0;
+      weakest = above ? std::max(weakest, judgement.value) : std::min(weakest, judgement.value);
       std::vector<std::string> row = {metric,
-                                      verdict.rule,
-                                      verdict.source,
-                                      Number(verdict.value),
-                                      Number(verdict.threshold),
-                                      NameOf(verdict.localizability)};
-      AppendNumbers(verdict.direction, &row);
+                                      judgement.rule,
+                                      judgement.source,
+                                      Number(judgement.value),
+                                      Number(judgement.threshold),
+                                      NameOf(judgement.localizability)};
+      AppendNumbers(judgement.direction, &row);
       table->AddRow(std::move(row));
     }
-    const Verdict& verdict = verdicts[first];
-    std::printf("  %-19s %8d of 6 %7d %9.4g  %s %g\n", verdict.rule.c_str(), degenerate, partial,
-                weakest, above ? "above" : "below", verdict.threshold);
-    manifest->SetResult("degenerate_" + metric + "_" + verdict.rule, degenerate);
+    const Judgement& judgement = judgements[first];
+    std::printf("  %-19s %8d of 6 %7d %9.4g  %s %g\n", judgement.rule.c_str(), degenerate, partial,
+                weakest, above ? "above" : "below", judgement.threshold);
+    manifest->SetResult("degenerate_" + metric + "_" + judgement.rule, degenerate);
   }
 }
 
@@ -168,19 +171,21 @@ void ListDraws(const std::string& metric, const std::vector<DrawResult>& draws, 
 CovarianceReport::CovarianceReport()
     : covariances_(CovarianceTable()),
       directions_(DirectionTable()),
-      verdicts_(VerdictTable()),
+      judgements_(JudgementTable()),
       draws_(DrawTable()),
       calibration_(CalibrationTable()) {}
 
-void CovarianceReport::AddPair(const std::string& metric, const RegistrationUncertainty& result,
+void CovarianceReport::AddPair(const NamedVerdict& verdict, const RegistrationUncertainty& result,
                                double cluster_m, Manifest* manifest) {
+  const std::string& metric = verdict.first;
   const MinimizerSummary& summary = result.registration;
   std::printf("\n%s: %s after %zu steps; %ld pairs, %ld cubes of %g m\n", metric.c_str(),
               NameOf(summary.termination), summary.iterates.size() - 1, result.sums.pairs,
               result.sums.clusters, cluster_m);
-  ReportCovariances(metric, result.covariances, &covariances_);
+  PrintVerdict(verdict.second);
+  ReportCovariances(verdict, result.covariances, &covariances_);
   ReportDirections(metric, result.directions, &directions_);
-  ReportVerdicts(metric, result.verdicts, &verdicts_, manifest);
+  ReportJudgements(metric, result.judgements, &judgements_, manifest);
   const std::string warning = CovarianceWarning(metric);
   if (!warning.empty()) {
     std::printf("warning: %s\n", warning.c_str());
@@ -253,7 +258,7 @@ void CovarianceReport::AddDraws(const std::string& metric, const std::vector<Dra
 void CovarianceReport::WritePair(Run* run) const {
   covariances_.WriteCsv(run->File("covariance.csv"));
   directions_.WriteCsv(run->File("directions.csv"));
-  verdicts_.WriteCsv(run->File("verdicts.csv"));
+  judgements_.WriteCsv(run->File("degeneracy.csv"));
 }
 
 void CovarianceReport::WriteDraws(Run* run) const {

@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "apps/reports/verdict.h"
 #include "apps/run/run.h"
 #include "icpscape/io/output.h"
 #include "icpscape/monte_carlo/monte_carlo.h"
@@ -16,8 +17,9 @@ class CovarianceReport {
  public:
   CovarianceReport();
 
-  /// How sure the registration of a pair is: covariances, eigenvalues and verdicts.
-  void AddPair(const std::string& metric, const RegistrationUncertainty& result, double cluster_m,
+  /// How sure the registration of a pair is: covariances, eigenvalues and judgements.
+  /// The verdict decides along which axes deviations are given.
+  void AddPair(const NamedVerdict& verdict, const RegistrationUncertainty& result, double cluster_m,
                Manifest* manifest);
 
   /// Bias, spread and NEES of Monte-Carlo draws. Throws ComputationError where fewer than two have
@@ -25,13 +27,13 @@ class CovarianceReport {
   void AddDraws(const std::string& metric, const std::vector<DrawResult>& draws,
                 Manifest* manifest);
 
-  /// covariance.csv, directions.csv, verdicts.csv.
+  /// covariance.csv, directions.csv, degeneracy.csv.
   void WritePair(Run* run) const;
   /// draws.csv, calibration.csv, bias.csv.
   void WriteDraws(Run* run) const;
 
  private:
-  Table covariances_, directions_, verdicts_;  // Of pairs.
+  Table covariances_, directions_, judgements_;  // Of pairs.
   Table draws_, calibration_;
   Table bias_ = Table({"metric", "component", "unit", "bias", "standard_error", "deviation"});
 };

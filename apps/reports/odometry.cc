@@ -6,6 +6,7 @@
 #include <cstdio>
 #include <iostream>
 
+#include "icpscape/common/error.h"
 #include "icpscape/common/text.h"
 #include "icpscape/io/kitti.h"
 #include "icpscape/io/output.h"
@@ -18,41 +19,53 @@ namespace {
 constexpr double kDegrees = 180 / M_PI;
 
 void WriteFrames(const ScanSequence& sequence, const std::vector<FrameRecord>& records, Run* run) {
-  Table frames({"frame", "scan", "time_s", "registered", "termination", "iterations", "n", "rmse",
-                "gate_m", "points", "map_points", "motion_m", "motion_deg", "x_m", "y_m", "z_m"});
-  // In a table of its own, since no two runs take the same time.
+  Table frames({"frame", "scan", "time_s", "registered", "termination", "converged",
+                "predicted_directions", "uncertain_directions", "iterations", "n", "rmse", "gate_m",
+                "points", "map_points", "motion_m", "motion_deg", "x_m", "y_m", "z_m"});
+  // Apart, since no two runs take the same time.
   Table timings({"frame", "read_s", "odometry_s"});
   for (std::size_t i = 0; i < records.size(); ++i) {
     const FrameResult& r = records[i].result;
     const Vec3& t = r.T_world_lidar.t();
     frames.AddRow({std::to_string(i), sequence.scans[i].name, Number(sequence.times_s[i]),
                    r.registered ? "1" : "0", i == 0 ? "first" : NameOf(r.termination),
-                   std::to_string(r.iterations), std::to_string(r.n), Number(r.rmse),
-                   Number(r.gate_m), std::to_string(r.points), std::to_string(r.map_points),
-                   Number(r.motion.t().norm()), Number(r.motion.LogRotation().norm() * kDegrees),
-                   Number(t.x()), Number(t.y()), Number(t.z())});
+                   r.converged ? "1" : "0", std::to_string(r.predicted_directions),
+                   std::to_string(r.uncertain_directions), std::to_string(r.iterations),
+                   std::to_string(r.n), Number(r.rmse), Number(r.gate_m), std::to_string(r.points),
+                   std::to_string(r.map_points), Number(r.motion.t().norm()),
+                   Number(r.motion.LogRotation().norm() * kDegrees), Number(t.x()), Number(t.y()),
+                   Number(t.z())});
     timings.AddRow({std::to_string(i), Number(records[i].read_s), Number(records[i].odometry_s)});
   }
   frames.WriteCsv(run->File("frames.csv"));
   timings.WriteCsv(run->File("timings.csv"));
 }
 
-void ReportFailures(const std::vector<FrameRecord>& records, Manifest* manifest) {
-  const auto failures =
+// How many scans there are of a kind, in a sentence and in the manifest.
+void Count(const std::vector<FrameRecord>& records, bool (*is_of_kind)(const FrameResult&),
+           const char* name, const char* sentence, Manifest* manifest) {
+  const auto count =
       std::count_if(records.begin() + 1, records.end(),
-                    [](const FrameRecord& record) { return !record.result.registered; });
-  if (failures > 0) {
-    std::cout << failures << " scans could not be registered and keep the predicted pose\n";
+                    [&](const FrameRecord& record) { return is_of_kind(record.result); });
+  if (count > 0) {
+    std::cout << count << " of " << records.size() - 1 << " scans " << sentence << "\n";
   }
-  const auto unfinished =
-      std::count_if(records.begin() + 1, records.end(), [](const FrameRecord& record) {
-        return record.result.termination == Termination::kMaxIterations;
-      });
-  if (unfinished > 0) {
-    std::cout << unfinished << " scans ended at the limit of steps: see frames.csv\n";
-  }
-  manifest->SetResult("ended_at_limit", static_cast<double>(unfinished));
-  manifest->SetResult("not_registered", static_cast<double>(failures));
+  manifest->SetResult(name, static_cast<double>(count));
+}
+
+void ReportDoubts(const std::vector<FrameRecord>& records, Manifest* manifest) {
+  Count(
+      records, [](const FrameResult& r) { return !r.registered; }, "not_registered",
+      "could not be registered and keep the predicted pose", manifest);
+  Count(
+      records, [](const FrameResult& r) { return r.predicted_directions > 0; }, "not_observed",
+      "have the predicted motion in directions that they do not see", manifest);
+  Count(
+      records, [](const FrameResult& r) { return r.uncertain_directions > 0; }, "uncertain",
+      "have directions with a predicted deviation beyond the tolerance", manifest);
+  Count(
+      records, [](const FrameResult& r) { return r.termination == Termination::kMaxIterations; },
+      "ended_at_limit", "ended at the limit of steps: see frames.csv", manifest);
 }
 
 void PrintPath(const std::vector<SE3d>& T_world_body) {
@@ -99,10 +112,22 @@ NamedTrajectory ReportOdometry(const ResumableOdometry& odometry, Run* run) {
   if (odometry.map()) {
     WritePly(run->File("map.ply"), odometry.map()->Cloud(SE3d()));
   }
-  ReportFailures(odometry.records(), run->manifest());
+  ReportDoubts(odometry.records(), run->manifest());
   PrintPath(named.pair.estimate);
   ReportSpeed(odometry.records(), run->manifest());
   return named;
+}
+
+void RequireRegistered(const std::vector<FrameRecord>& records) {
+  const auto is_doubtful = [](const FrameRecord& record) {
+    return !record.result.registered || record.result.predicted_directions > 0;
+  };
+  const auto doubtful = std::count_if(records.begin() + 1, records.end(), is_doubtful);
+  if (doubtful > 0) {
+    throw DoubtfulPose(std::to_string(doubtful) + " of " + std::to_string(records.size() - 1) +
+                       " scans have the predicted motion, in some direction or in all. The results "
+                       "are written; --accept=undetermined takes them.");
+  }
 }
 
 void ReportEnd(const TrajectoryPair& pair, Manifest* manifest) {

@@ -15,6 +15,9 @@ namespace icpscape {
 /// truth, where that is known for more than one scan, both as KITTI's files have them.
 NamedTrajectory ReportOdometry(const ResumableOdometry& odometry, Run* run);
 
+/// Throws DoubtfulPose where scans have the predicted motion.
+void RequireRegistered(const std::vector<FrameRecord>& records);
+
 /// Prints and records how far the end is off the truth.
 void ReportEnd(const TrajectoryPair& pair, Manifest* manifest);
 

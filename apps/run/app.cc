@@ -41,7 +41,8 @@ void PrintHelp(const std::string& summary) {
               << (has_default ? flag.default_value : "none") << ")\n      " << flag.help << "\n";
   }
   std::cout << "\nExit codes: 0 done, 1 the command line is wrong, 2 the data are wrong, 3 the "
-            << "computation has no answer,\n130 interrupted by Ctrl-C, 143 by SIGTERM.\n";
+            << "computation has no answer,\n4 there is a pose but its verdict is bad, 130 "
+               "interrupted by Ctrl-C, 143 by SIGTERM.\n";
 }
 
 int Fail(const std::string& message, int code) {
@@ -87,6 +88,8 @@ int RunApp(int argc, char** argv, const std::string& summary, const std::functio
     return Fail(error.what(), 2);
   } catch (const ComputationError& error) {
     return Fail(error.what(), 3);
+  } catch (const DoubtfulPose& doubt) {
+    return Fail(doubt.what(), 4);
   } catch (const std::bad_alloc&) {
     return Fail("out of memory; expected smaller clouds or fewer samples.", 3);
   } catch (const std::exception& error) {

@@ -25,9 +25,13 @@ std::vector<CovarianceResult> Covariance(PointCloud source, PointCloud target,
     result.metric = objective.metric().name;
     result.T_target_source = found.registration.T_target_source();
     result.termination = found.registration.termination;
+    VerdictOptions judge = options.verdict;
+    judge.minimizer = PreciseMinimizer();
+    judge.minimizer.threads = options.threads;
+    result.verdict = JudgePose(objective, found.registration, judge);
     result.covariances = std::move(found.covariances);
     result.directions = found.directions;
-    result.degeneracy = std::move(found.verdicts);
+    result.degeneracy = std::move(found.judgements);
     result.warning = CovarianceWarning(result.metric);
     results.push_back(std::move(result));
   }

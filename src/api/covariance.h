@@ -8,18 +8,21 @@
 
 #include "icpscape/api/pair.h"
 #include "icpscape/covariance/registration_uncertainty.h"
+#include "icpscape/verdict/verdict.h"
 
 namespace icpscape {
 
-/// Of Covariance.
+/// Options of Covariance.
 struct PairCovarianceOptions : PairOptions {
-  /// point_to_point, point_to_plane and symmetric.
+  /// By default point_to_point, point_to_plane and symmetric.
   PairCovarianceOptions();
 
   /// What the estimators assume about the noise.
   CovarianceOptions estimators;
   /// Lever arm at which rotations count as lengths (m), in `directions`.
   double length_scale_m = 10;
+  /// Tolerances of the verdict. Its `minimizer` is not used.
+  VerdictOptions verdict;
 };
 
 /// How sure the registration by one metric is.
@@ -27,17 +30,18 @@ struct CovarianceResult {
   std::string metric;
   SE3d T_target_source;
   Termination termination = Termination::kFailure;
+  Verdict verdict;  ///< What the pose is worth.
 
   /// What each estimator says, in the order of AllOf<Estimator>.
   std::vector<EstimatedCovariance> covariances;
   /// The 6x6 covariance of xi in T_true = T_target_source Exp(xi), xi = [omega; v]: rotation about
   /// x, y, z (rad), then translation along x, y, z (m), in the frame of the source. Nothing where
-  /// the pairs do not determine all six directions, or the estimator has too little to go by:
+  /// the pairs do not determine all six directions, or the estimator lacks what it needs:
   /// EstimatedCovariance::reason says which.
   const std::optional<Mat6>& Of(Estimator estimator) const;
 
-  EigenDirections directions;       ///< Of the Gauss-Newton Hessian, the weakest first.
-  std::vector<Verdict> degeneracy;  ///< The published rules, side by side; see degeneracy.h.
+  EigenDirections directions;         ///< Of the Gauss-Newton Hessian, the weakest first.
+  std::vector<Judgement> degeneracy;  ///< The published rules, side by side; see degeneracy.h.
   std::string warning;  ///< Where the estimators are known to be wrong for the metric; else empty.
 };
 

@@ -9,14 +9,13 @@
 
 namespace icpscape {
 
-/// Of Landscape.
+/// Options of Landscape.
 struct LandscapeOptions : PairOptions {
-  /// point_to_point, point_to_plane and symmetric.
+  /// By default point_to_point, point_to_plane and symmetric.
   LandscapeOptions();
 
   PathKind path = PathKind::kLerpSlerp;
-  /// From which u to which, how many poses, and whether pairs are frozen. Its `threads` is not
-  /// used.
+  /// Interval of u, number of poses, and whether pairs are frozen. Its `threads` is not used.
   CurveOptions curve;
 };
 

@@ -10,8 +10,8 @@
 
 namespace icpscape {
 
-/// What Register, Landscape and Covariance are told about a pair of clouds. The defaults are those
-/// of the programs.
+/// Options of Register, Landscape and Covariance for a pair of clouds. The defaults are those of
+/// the programs.
 struct PairOptions {
   /// Objective functions by name; see docs/metrics.md, and icpscape-list_metrics.
   std::vector<std::string> metrics;
@@ -19,7 +19,7 @@ struct PairOptions {
   PreparationOptions preparation;
   /// Which points form pairs, and the loss on their residuals.
   ObjectiveSetOptions objective;
-  /// Where registration starts, and u = 0 of a landscape.
+  /// The start of a registration, and u = 0 of a landscape.
   SE3d T_initial;
   /// No result depends on it.
   int threads = 1;

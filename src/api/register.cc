@@ -19,7 +19,10 @@ RegisterResult Register(PointCloud source, PointCloud target, const RegisterOpti
   MinimizerOptions minimizer = options.minimizer;
   minimizer.threads = options.threads;
   MinimizerSummary summary = Minimize(objective, options.T_initial, minimizer);
+  VerdictOptions judge = options.verdict;
+  judge.minimizer = minimizer;
   RegisterResult result;
+  result.verdict = JudgePose(objective, summary, judge);
   result.T_target_source = options.T_initial;
   result.termination = summary.termination;
   result.message = std::move(summary.message);

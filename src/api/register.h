@@ -6,28 +6,33 @@
 #include <vector>
 
 #include "icpscape/api/pair.h"
-#include "icpscape/minimizer/minimizer.h"
+#include "icpscape/verdict/verdict.h"
 
 namespace icpscape {
 
-/// Of Register.
+/// Options of Register.
 struct RegisterOptions : PairOptions {
-  /// point_to_plane, and steps that are long from 0.1 mm and 0.001 degrees on.
+  /// By default point_to_plane; steps below 0.1 mm and 0.001 degrees end the search.
   RegisterOptions();
 
   /// Several metrics are minimised together: cost = sum_k w_k cost_k. One positive weight for each
   /// metric, or none: then each is 1.
   std::vector<double> weights;
-  /// When to stop, which directions are free, who watches. Its `threads` is not used.
+  /// When to stop, which directions are free, and the observer. Its `threads` is not used.
   MinimizerOptions minimizer;
+  /// Tolerances of the verdict. Its `minimizer` is not used.
+  VerdictOptions verdict;
 };
 
-/// Where Register ended.
+/// The result of Register.
 struct RegisterResult {
   /// p_target = T_target_source * p_source. The start pose where the result is not usable.
   SE3d T_target_source;
   Termination termination = Termination::kFailure;
   std::string message;  ///< Why it ended, in one sentence.
+
+  /// What the pose is worth: determined or not, converged or not.
+  Verdict verdict;
 
   /// Whether the pose is a result. A limit on iterations leaves a pose that may be far from the
   /// minimum: see `termination`.

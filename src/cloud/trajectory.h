@@ -8,8 +8,8 @@
 
 namespace icpscape {
 
-/// Poses T_world_body in the order of their frames; body is what the file is about: the left camera
-/// in KITTI's, often the lidar in ours.
+/// Poses T_world_body in the order of their frames; body is the left camera in KITTI's files, often
+/// the lidar in ours.
 struct Trajectory {
   std::vector<SE3d> T_world_body;
   std::vector<double> times_s;  ///< One per pose, increasing; empty where the file has none.

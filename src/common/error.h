@@ -22,6 +22,12 @@ struct ComputationError : std::runtime_error {
   using std::runtime_error::runtime_error;
 };
 
+/// There is a pose, and the results are written, but its verdict is bad: undetermined, or not
+/// converged (exit code 4).
+struct DoubtfulPose : std::runtime_error {
+  using std::runtime_error::runtime_error;
+};
+
 }  // namespace icpscape
 
 #endif  // ICPSCAPE_SRC_COMMON_ERROR_H_

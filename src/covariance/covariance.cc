@@ -46,6 +46,21 @@ std::size_t RingCount(const PointCloud& cloud) {
   return static_cast<std::size_t>(last) + 1;  // Wraps around to 0 where there is none.
 }
 
+using Motions = Eigen::Matrix<double, 6, Eigen::Dynamic>;
+
+// By columns: the gradient after a motion less that after its opposite, each over its own pairs.
+Motions GradientChanges(const JointObjective& objective, const SE3d& T, const Motions& steps,
+                        int threads) {
+  const auto gradient = [&](const Vec6& xi) {
+    return objective.Evaluate(T * SE3d::Exp(xi), threads).sums.gradient;
+  };
+  Motions changes(6, steps.cols());
+  for (Eigen::Index i = 0; i < steps.cols(); ++i) {
+    changes.col(i) = gradient(steps.col(i)) - gradient(-steps.col(i));
+  }
+  return changes;
+}
+
 // The inverse; nothing where the matrix is not positive definite to within rounding. Rotations are
 // scaled to the size of translations before.
 std::optional<Mat6> Inverse(const Mat6& matrix) {
@@ -92,18 +107,53 @@ void CovarianceOptions::Check() const {
           rematching_step_m, "0.0001 to 1 m");
 }
 
+ScoreSums SumScores(const JointObjective& objective, const SE3d& T, const MatchesByMatcher& matches,
+                    double cluster_m) {
+  std::size_t most_pairs = 0;
+  for (const Objective& term : objective.objectives()) {
+    most_pairs += term.matcher().source().size();
+  }
+  ScoreSums sums;
+  VoxelNumbers cubes(most_pairs);
+  Groups cluster_scores(most_pairs);
+  for (std::size_t k = 0; k < objective.objectives().size(); ++k) {
+    const Objective& term = objective.objectives()[k];
+    const double weight = objective.weights()[k];
+    const Matcher& matcher = term.matcher();
+    const PairGradientFunction differentiate = PairGradientOf(term.metric());
+    ForEachPair(term, matches.at(&matcher),
+                [&](std::size_t /*i*/, std::size_t j, const Correspondence& pair) {
+                  const PairGradient d = differentiate(pair, T, term.loss());
+                  const Vec6 g = weight * d.gradient;
+                  sums.gauss_newton += weight * d.gauss_newton;
+                  sums.scores += g * g.transpose();
+                  cluster_scores.Add(cubes.Insert(VoxelKey(matcher.target().Point(j).cast<float>(),
+                                                           cluster_m, "the target frame")),
+                                     g);
+                  ++sums.pairs;
+                  sums.rows += d.rows;
+                });
+  }
+  sums.cluster_scores = cluster_scores.SumOfSquares();
+  sums.clusters = static_cast<long>(cubes.size());
+  return sums;
+}
+
 CovarianceSums SumForCovariance(const Objective& objective, const SE3d& T,
                                 const CovarianceOptions& options, int threads) {
   CovarianceSums sums = SumForCovariance(objective, T, objective.Match(T, threads), options);
-  const auto gradient = [&](const Vec6& xi) {
-    return objective.Evaluate(T * SE3d::Exp(xi), threads).sums.gradient;
-  };
+  Vec6 steps = Vec6::Constant(options.rematching_step_m);
+  steps.head<3>() /= kRematchingLever;
+  const Mat6 changes = GradientChanges(objective, T, Mat6(steps.asDiagonal()), threads);
   for (int i = 0; i < 6; ++i) {
-    const double h = options.rematching_step_m / (i < 3 ? kRematchingLever : 1);
-    const Vec6 step = h * Vec6::Unit(i);
-    sums.rematched_hessian.col(i) = (gradient(step) - gradient(-step)) / (2 * h);
+    sums.rematched_hessian.col(i) = changes.col(i) / (2 * steps[i]);
   }
   return sums;
+}
+
+Eigen::MatrixXd RematchedHessian(const JointObjective& objective, const SE3d& T,
+                                 const Motions& steps, int threads) {
+  return 0.5 * steps.transpose() * GradientChanges(objective, T, steps, threads);
 }
 
 CovarianceSums SumForCovariance(const Objective& objective, const SE3d& T, const Matches& matches,

@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "icpscape/common/names.h"
-#include "icpscape/objective/objective.h"
+#include "icpscape/objective/joint_objective.h"
 
 namespace icpscape {
 
@@ -26,16 +26,26 @@ struct CovarianceOptions {
   void Check() const;
 };
 
-/// Sums over an objective's pairs at one pose, from which every estimator is made. g_i is the
-/// gradient of pair i, in T <- T Exp([omega; v]).
-struct CovarianceSums {
-  Mat6 gauss_newton = Mat6::Zero();  ///< H = sum rho' J^T J
-  Mat6 hessian = Mat6::Zero();       ///< A = d^2 cost / d xi^2, exact for these pairs.
+/// Sums over the gradients of pairs at one pose; g_i is that of pair i, in T <- T Exp([omega; v]).
+struct ScoreSums {
+  Mat6 gauss_newton = Mat6::Zero();    ///< H = sum rho' J^T J
+  Mat6 scores = Mat6::Zero();          ///< sum_i g_i g_i^T
+  Mat6 cluster_scores = Mat6::Zero();  ///< sum_c G_c G_c^T, G_c = sum_{i in c} g_i
+  long pairs = 0;
+  long rows = 0;      ///< Residual rows of all pairs.
+  long clusters = 0;  ///< Cubes of the target frame that hold a pair's target point.
+};
+
+/// All terms' pairs, weighted.
+ScoreSums SumScores(const JointObjective& objective, const SE3d& T_target_source,
+                    const MatchesByMatcher& matches, double cluster_m);
+
+/// Sums over an objective's pairs at one pose, from which every estimator is made.
+struct CovarianceSums : ScoreSums {
+  Mat6 hessian = Mat6::Zero();  ///< A = d^2 cost / d xi^2, exact for these pairs.
   /// B = d gradient / d xi where every pose has its own pairs; by central differences, not
   /// symmetric.
   Mat6 rematched_hessian = Mat6::Zero();
-  Mat6 scores = Mat6::Zero();          ///< sum_i g_i g_i^T
-  Mat6 cluster_scores = Mat6::Zero();  ///< sum_c G_c G_c^T, G_c = sum_{i in c} g_i
   /// sum_k b_k b_k^T over all points of both clouds, b_k = d (sum_i g_i) / d range_k (a target
   /// point has many pairs: its derivative is summed before it is squared).
   Mat6 range_noise = Mat6::Zero();
@@ -43,9 +53,6 @@ struct CovarianceSums {
   /// both clouds. Nothing where a cloud has no rings.
   std::optional<Mat6> ring_bias;
   double cost = 0;
-  long pairs = 0;
-  long rows = 0;  ///< Residual rows of all pairs.
-  long clusters = 0;
 };
 
 /// Sums over the pairs that belong to the pose, found by up to `threads` threads (the result does
@@ -55,6 +62,13 @@ CovarianceSums SumForCovariance(const Objective& objective, const SE3d& T_target
 /// The same over given pairs, without the rematched Hessian (left at zero).
 CovarianceSums SumForCovariance(const Objective& objective, const SE3d& T_target_source,
                                 const Matches& matches, const CovarianceOptions& options);
+
+/// steps^T B steps with the B of CovarianceSums, over motions that are the columns of `steps`, each
+/// as long as half the distance over which the gradient is differenced. Two matching passes a
+/// column.
+Eigen::MatrixXd RematchedHessian(const JointObjective& objective, const SE3d& T_target_source,
+                                 const Eigen::Matrix<double, 6, Eigen::Dynamic>& steps,
+                                 int threads);
 
 /// The estimators, in the order of the documentation. All are the covariance of xi in
 /// T_true = T Exp(xi), that is [omega; v] in the source frame, rad and m.

@@ -67,24 +67,24 @@ std::vector<PlaneConstraint> PlaneConstraintsOf(const Objective& objective, cons
   return constraints;
 }
 
-std::vector<Verdict> JudgeEigenvalues(const std::string& rule, const std::string& source,
-                                      const Mat6& hessian, double threshold) {
+std::vector<Judgement> JudgeEigenvalues(const std::string& rule, const std::string& source,
+                                        const Mat6& hessian, double threshold) {
   const EigenDirections eigen = EigenDirectionsOf(hessian, 1);
-  std::vector<Verdict> verdicts;
+  std::vector<Judgement> judgements;
   for (int j = 0; j < 6; ++j) {
     const double value = eigen.eigenvalues[j];
-    verdicts.push_back({rule, source, eigen.directions.col(j), value, threshold,
-                        value < threshold ? Localizability::kNone : Localizability::kFull});
+    judgements.push_back({rule, source, eigen.directions.col(j), value, threshold,
+                          value < threshold ? Localizability::kNone : Localizability::kFull});
   }
-  return verdicts;
+  return judgements;
 }
 
-std::vector<Verdict> JudgeXicp(const Mat6& hessian, const std::vector<PlaneConstraint>& pairs) {
+std::vector<Judgement> JudgeXicp(const Mat6& hessian, const std::vector<PlaneConstraint>& pairs) {
   Vec3 centroid = Vec3::Zero();
   for (const PlaneConstraint& pair : pairs) {
     centroid += pair.p_source / static_cast<double>(pairs.size());
   }
-  std::vector<Verdict> verdicts;
+  std::vector<Judgement> judgements;
   for (const bool rotation : {true, false}) {
     const int corner = rotation ? 0 : 3;
     const Eigen::SelfAdjointEigenSolver<Mat3> solver(Mat3(hessian.block<3, 3>(corner, corner)));
@@ -106,16 +106,16 @@ std::vector<Verdict> JudgeXicp(const Mat6& hessian, const std::vector<PlaneConst
       } else if (combined[j] >= kFullStrong || strong[j] >= kPartialStrong) {
         category = Localizability::kPartial;
       }
-      verdicts.push_back({"x_icp", "Tuna et al. 2024",
-                          Embed(solver.eigenvectors().col(j), rotation), combined[j], kFullStrong,
-                          category});
+      judgements.push_back({"x_icp", "Tuna et al. 2024",
+                            Embed(solver.eigenvectors().col(j), rotation), combined[j], kFullStrong,
+                            category});
     }
   }
-  return verdicts;
+  return judgements;
 }
 
-std::vector<Verdict> JudgeDcreg(const Mat6& hessian) {
-  std::vector<Verdict> verdicts;
+std::vector<Judgement> JudgeDcreg(const Mat6& hessian) {
+  std::vector<Judgement> judgements;
   for (const bool rotation : {true, false}) {
     const int own = rotation ? 0 : 3;
     const int other = 3 - own;
@@ -129,22 +129,22 @@ std::vector<Verdict> JudgeDcreg(const Mat6& hessian) {
       const double eigenvalue = std::max(solver.eigenvalues()[j], 0.0);
       const double condition = eigenvalue > 0 ? solver.eigenvalues()[2] / eigenvalue
                                               : std::numeric_limits<double>::infinity();
-      verdicts.push_back(
+      judgements.push_back(
           {"dcreg", "Hu et al. 2025", Embed(solver.eigenvectors().col(j), rotation), condition,
            kDcregCondition,
            condition > kDcregCondition ? Localizability::kNone : Localizability::kFull});
     }
   }
-  return verdicts;
+  return judgements;
 }
 
-std::vector<Verdict> JudgeDegeneracy(const Mat6& hessian,
-                                     const std::vector<PlaneConstraint>& pairs) {
-  std::vector<Verdict> all =
+std::vector<Judgement> JudgeDegeneracy(const Mat6& hessian,
+                                       const std::vector<PlaneConstraint>& pairs) {
+  std::vector<Judgement> all =
       JudgeEigenvalues("loam_odometry", "Zhang et al. 2016; loam_velodyne; LeGO-LOAM", hessian,
                        kLoamOdometryThreshold);
-  const auto append = [&](const std::vector<Verdict>& verdicts) {
-    all.insert(all.end(), verdicts.begin(), verdicts.end());
+  const auto append = [&](const std::vector<Judgement>& judgements) {
+    all.insert(all.end(), judgements.begin(), judgements.end());
   };
   append(JudgeEigenvalues("loam_mapping", "Zhang et al. 2016; loam_velodyne; LIO-SAM", hessian,
                           kLoamMappingThreshold));

@@ -31,7 +31,7 @@ struct Names<Localizability> {
 };
 
 /// What one published rule says about one direction.
-struct Verdict {
+struct Judgement {
   std::string rule;               ///< "loam_odometry", "loam_mapping", "x_icp" or "dcreg".
   std::string source;             ///< Where it comes from.
   Vec6 direction;                 ///< Unit vector in [omega; v] (rad, m), source frame.
@@ -50,13 +50,13 @@ std::vector<PlaneConstraint> PlaneConstraintsOf(const Objective& objective,
                                                 const SE3d& T_target_source,
                                                 const Matches& matches);
 
-// The verdicts of one rule: six, over the directions that the rule itself looks at.
+// The judgements of one rule: six, over the directions that the rule itself looks at.
 
-/// Zhang, Kaess & Singh 2016: an eigenvalue of H = J^T J below a threshold; H is not scaled (rad,
-/// m). The paper leaves the threshold to experiments. Codes use constants on sums over all pairs,
-/// so that the verdict depends on the number of points.
-std::vector<Verdict> JudgeEigenvalues(const std::string& rule, const std::string& source,
-                                      const Mat6& hessian, double threshold);
+/// Zhang, Kaess & Singh 2016: an eigenvalue of H = J^T J below a threshold; H as it comes, in rad
+/// and m. The paper leaves the threshold to experiments. Those in use are constants on sums over
+/// all pairs, so that the number of points decides with them.
+std::vector<Judgement> JudgeEigenvalues(const std::string& rule, const std::string& source,
+                                        const Mat6& hessian, double threshold);
 /// Scan to scan: loam_velodyne and LeGO-LOAM.
 constexpr double kLoamOdometryThreshold = 10;
 /// Scan to map: loam_velodyne and LIO-SAM.
@@ -71,18 +71,18 @@ constexpr double kLoamMappingThreshold = 100;
 /// `value` is L_c, `threshold` 180.
 /// Thresholds as a published summary of the paper gives them; the authors' code has others in its
 /// parameter files (300, 300, 150). That code takes c from all matched points, as is done here.
-std::vector<Verdict> JudgeXicp(const Mat6& hessian, const std::vector<PlaneConstraint>& pairs);
+std::vector<Judgement> JudgeXicp(const Mat6& hessian, const std::vector<PlaneConstraint>& pairs);
 
 /// DCReg [Hu et al. 2025, eq. 18 to 21]: eigenvalues lambda_j of the Schur complements
 ///   S_R = H_RR - H_Rt H_tt^-1 H_tR,  S_t = H_tt - H_tR H_RR^-1 H_Rt
 /// each within its own three: degenerate where lambda_max / lambda_j > 10 (`value`, and the
-/// default of the authors' code). Where a block is singular its pseudo-inverse is used; the
-/// authors' code calls all six directions degenerate there.
-std::vector<Verdict> JudgeDcreg(const Mat6& hessian);
+/// default of the authors' code). Where a block is singular its pseudo-inverse stands for the
+/// inverse; the authors' code calls all six directions degenerate there.
+std::vector<Judgement> JudgeDcreg(const Mat6& hessian);
 
 /// All rules side by side; X-ICP's where there are pairs for it.
-std::vector<Verdict> JudgeDegeneracy(const Mat6& hessian,
-                                     const std::vector<PlaneConstraint>& pairs);
+std::vector<Judgement> JudgeDegeneracy(const Mat6& hessian,
+                                       const std::vector<PlaneConstraint>& pairs);
 
 }  // namespace icpscape
 

@@ -82,17 +82,39 @@ PairDerivatives Differentiate(const Correspondence& pair, const SE3d& T,
   return out;
 }
 
+template <class Metric>
+PairGradient GradientOf(const Correspondence& pair, const SE3d& T,
+                        const ceres::LossFunction* loss) {
+  const Metric metric = Metric::From(pair);
+  const Vec<double, Metric::kDim> r = metric.Residual(T);
+  const Mat<double, Metric::kDim, 6> J = metric.Jacobian(T);
+  double rho[3] = {0, 1, 0};
+  if (loss != nullptr) {
+    loss->Evaluate(r.squaredNorm(), rho);
+  }
+  return {rho[1] * J.transpose() * r, rho[1] * J.transpose() * J, Metric::kDim};
+}
+
 // By the metrics' places.
 template <class... Metrics>
-PairDerivativesFunction FunctionAt(std::size_t place, MetricList<Metrics...>) {
+PairDerivativesFunction DifferentiateAt(std::size_t place, MetricList<Metrics...>) {
   constexpr PairDerivativesFunction kFunctions[] = {&Differentiate<Metrics>...};
+  return kFunctions[place];
+}
+template <class... Metrics>
+PairGradientFunction GradientAt(std::size_t place, MetricList<Metrics...>) {
+  constexpr PairGradientFunction kFunctions[] = {&GradientOf<Metrics>...};
   return kFunctions[place];
 }
 
 }  // namespace
 
 PairDerivativesFunction PairDerivativesOf(const RegisteredMetric& metric) {
-  return FunctionAt(metric.place, AllMetrics{});
+  return DifferentiateAt(metric.place, AllMetrics{});
+}
+
+PairGradientFunction PairGradientOf(const RegisteredMetric& metric) {
+  return GradientAt(metric.place, AllMetrics{});
 }
 
 }  // namespace icpscape

@@ -33,6 +33,17 @@ using PairDerivativesFunction = PairDerivatives (*)(const Correspondence& pair,
 
 PairDerivativesFunction PairDerivativesOf(const RegisteredMetric& metric);
 
+/// The first derivatives alone, without automatic differentiation.
+struct PairGradient {
+  Vec6 gradient;  ///< As in PairDerivatives, and so are the others.
+  Mat6 gauss_newton;
+  int rows;
+};
+using PairGradientFunction = PairGradient (*)(const Correspondence& pair,
+                                              const SE3d& T_target_source,
+                                              const ceres::LossFunction* loss);
+PairGradientFunction PairGradientOf(const RegisteredMetric& metric);
+
 }  // namespace icpscape
 
 #endif  // ICPSCAPE_SRC_COVARIANCE_PAIR_DERIVATIVES_H_

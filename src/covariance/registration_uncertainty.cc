@@ -11,8 +11,12 @@ std::string Reason(Estimator estimator, const CovarianceSums& sums, bool is_dete
   if (!is_determined) {
     return "the pairs do not determine all six degrees of freedom";
   }
+  if (!(sums.cost > 0)) {
+    return "all residuals are zero, and with them the noise that they tell of";
+  }
   if (estimator == Estimator::kCensiRingBias && !sums.ring_bias) {
-    return "the points have no rings";
+    return "the clouds carry no ring numbers (those of KITTI's scans are recovered for edges and "
+           "planar points alone)";
   }
   if (estimator == Estimator::kSandwichRematched && sums.clusters > 6) {
     return "where the pairs follow the pose, the cost has no minimum here";
@@ -42,8 +46,9 @@ RegistrationUncertainty RegisterWithUncertainty(const Objective& objective, cons
   }
   const SE3d& T = result.registration.T_target_source();
   result.sums = SumForCovariance(objective, T, options, threads);
+  result.directions = EigenDirectionsOf(result.sums.gauss_newton, length_scale_m);
   const bool is_determined =
-      EstimateCovariance(Estimator::kGaussNewton, result.sums, options).has_value();
+      result.directions.eigenvalues[0] > 1e-12 * result.directions.eigenvalues[5];
   for (const Estimator estimator : AllOf<Estimator>()) {
     EstimatedCovariance entry;
     entry.estimator = estimator;
@@ -53,9 +58,8 @@ RegistrationUncertainty RegisterWithUncertainty(const Objective& objective, cons
     }
     result.covariances.push_back(entry);
   }
-  result.directions = EigenDirectionsOf(result.sums.gauss_newton, length_scale_m);
-  result.verdicts = JudgeDegeneracy(result.sums.gauss_newton,
-                                    PlaneConstraintsOf(objective, T, objective.Match(T, threads)));
+  result.judgements = JudgeDegeneracy(
+      result.sums.gauss_newton, PlaneConstraintsOf(objective, T, objective.Match(T, threads)));
   return result;
 }
 

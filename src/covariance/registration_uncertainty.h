@@ -30,7 +30,7 @@ struct RegistrationUncertainty {
   CovarianceSums sums;                           ///< At the solution, as all that follows.
   std::vector<EstimatedCovariance> covariances;  ///< In the order of AllOf<Estimator>.
   EigenDirections directions;                    ///< Of the Gauss-Newton Hessian.
-  std::vector<Verdict> verdicts;                 ///< Of JudgeDegeneracy.
+  std::vector<Judgement> judgements;             ///< Of JudgeDegeneracy.
 };
 
 /// Minimises the objective with PreciseMinimizer, and says how sure the solution is. Throws

@@ -2,6 +2,7 @@
 #include "icpscape/minimizer/loop.h"
 
 #include <Eigen/Eigenvalues>
+#include <algorithm>
 #include <cmath>
 #include <tuple>
 
@@ -32,6 +33,11 @@ std::pair<double, double> ExtremeEigenvalues(const Mat6& hessian, const DofMask&
       Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd>(scaled, Eigen::EigenvaluesOnly).eigenvalues();
   return {eigenvalues[0], eigenvalues[size - 1]};
 }
+
+// The longest period of a limit cycle that is looked for, and how much closer than a short step a
+// pose must come to the one of a period before: slow convergence is no cycle.
+constexpr std::size_t kLongestPeriod = 10;
+constexpr double kSamePose = 0.1;
 
 // In metres and radians.
 std::pair<double, double> Length(const SE3d& from, const SE3d& to) {
@@ -99,6 +105,21 @@ bool Loop::LastStepWasShort() const {
          IsShort(summary_.iterates.back().step_m, summary_.iterates.back().step_rad);
 }
 
+std::size_t Loop::Period() const {
+  const std::vector<Iterate>& iterates = summary_.iterates;
+  const auto returned = [&](std::size_t last, std::size_t period) {
+    const auto [step_m, step_rad] =
+        Length(iterates[last - period].T_target_source, iterates[last].T_target_source);
+    return IsShort(step_m / kSamePose, step_rad / kSamePose);
+  };
+  for (std::size_t period = 2; period <= kLongestPeriod && period + 2 < iterates.size(); ++period) {
+    if (returned(iterates.size() - 1, period) && returned(iterates.size() - 2, period)) {
+      return period;
+    }
+  }
+  return 0;
+}
+
 MinimizerSummary Loop::End(Termination termination, std::string message) {
   summary_.termination = termination;
   summary_.message = std::move(message);
@@ -123,6 +144,16 @@ MinimizerSummary Loop::EndFlat() {
              "scale or a better start.");
 }
 
+MinimizerSummary Loop::EndLimitCycle(std::size_t period) {
+  std::vector<Iterate>& iterates = summary_.iterates;
+  const auto best =
+      std::min_element(iterates.end() - static_cast<std::ptrdiff_t>(period), iterates.end(),
+                       [](const Iterate& a, const Iterate& b) { return a.rmse < b.rmse; });
+  iterates.erase(best + 1, iterates.end());
+  return End(Termination::kLimitCycle,
+             "The same " + std::to_string(period) + " poses came again; this is the best of them.");
+}
+
 MinimizerSummary Loop::EndMaxIterations() {
   return End(
       Termination::kMaxIterations,
@@ -130,6 +161,9 @@ MinimizerSummary Loop::EndMaxIterations() {
 }
 
 MinimizerSummary Loop::EndNoDescent() {
+  if (summary_.iterates.back().gradient_norm == 0) {
+    return End(Termination::kConverged, "The gradient is zero.");
+  }
   return End(Termination::kNoDescent, "No step lowered the cost any further.");
 }
 

@@ -38,12 +38,16 @@ class Loop {
   bool IsShortStepTo(const SE3d& T) const;
   bool LastStepWasShort() const;
 
+  /// After how many steps the last two poses were there before; 0 where they were not.
+  std::size_t Period() const;
+
   MinimizerSummary End(Termination termination, std::string message);
   MinimizerSummary EndHere() { return End(end_->first, end_->second); }
   /// A step that is short because longer ones were rejected before it is no convergence.
   MinimizerSummary EndShortStep(int rejected);
   MinimizerSummary EndNoCorrespondences();
   MinimizerSummary EndFlat();
+  MinimizerSummary EndLimitCycle(std::size_t period);
   MinimizerSummary EndMaxIterations();
   MinimizerSummary EndNoDescent();
   /// Where Ceres gave up. At a perfect fit it finds its steps, of length 0, invalid: no failure.

@@ -128,6 +128,9 @@ MinimizerSummary MinimizeEveryStep(const JointObjective& objective, Parameters x
     if (loop.Ended()) {
       return loop.EndHere();
     }
+    if (const std::size_t period = loop.Period()) {
+      return loop.EndLimitCycle(period);
+    }
     if (iteration == loop.options().max_iterations) {
       return loop.EndMaxIterations();
     }

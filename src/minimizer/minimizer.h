@@ -76,6 +76,7 @@ enum class Termination {
   kCostChange,         ///< The cost hardly changed.
   kCostReached,        ///< The cost is as low as was asked for.
   kNoDescent,          ///< No step along the model lowered the cost, or only a vanishing one.
+  kLimitCycle,         ///< The same poses came again and again; the result is their best.
   kMaxIterations,      ///< The limit on iterations was reached.
   kStopped,            ///< The observer ended it.
   kNoCorrespondences,  ///< A pose had no usable pair.
@@ -84,9 +85,9 @@ enum class Termination {
 template <>
 struct Names<Termination> {
   static constexpr const char* kWhat = "termination";
-  static constexpr const char* kNames[] = {"converged",          "cost_change",    "cost_reached",
-                                           "no_descent",         "max_iterations", "stopped",
-                                           "no_correspondences", "failure"};
+  static constexpr const char* kNames[] = {"converged",  "cost_change",        "cost_reached",
+                                           "no_descent", "limit_cycle",        "max_iterations",
+                                           "stopped",    "no_correspondences", "failure"};
 };
 
 /// Whether the pose where it ended is a result.
@@ -109,9 +110,11 @@ struct MinimizerSummary {
 
 /// The closed loop [paper fig. 1]: minimises the objective from a start pose with Ceres, through
 /// one SquareRootCost (or, for a loss with rho'' > 0, one residual block per pair; that needs
-/// kEveryStep and logs a warning). Bad data do not throw: see termination. Under kEveryEvaluation
-/// the observer also sees what non-monotone steps tried on the way; the summary ends with the pose
-/// of least cost.
+/// kEveryStep and is said in the log). Never throws for trouble with the data: see termination.
+/// Where kEveryStep comes back to a pose that it had a few steps before, and again the step after,
+/// pairs change back and forth for ever: it ends with the pose of least RMSE among these.
+/// Under kEveryEvaluation the observer also sees what non-monotone steps tried on the way; the
+/// summary ends with the pose of least cost.
 MinimizerSummary Minimize(const JointObjective& objective, const SE3d& T_start,
                           const MinimizerOptions& options);
 

@@ -25,6 +25,10 @@ class JointObjective {
   JointObjective(JointObjective&&) noexcept;
   JointObjective& operator=(JointObjective&&) noexcept;
 
+  const std::vector<Objective>& objectives() const { return objectives_; }
+  /// One per objective.
+  const std::vector<double>& weights() const { return weights_; }
+
   /// "edge_to_line + planar_to_plane".
   std::string Name() const;
 

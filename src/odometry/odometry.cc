@@ -19,6 +19,27 @@ bool AnyPoints(const std::vector<std::string>& metrics) {
   return !std::all_of(metrics.begin(), metrics.end(), NeedsFeatures);
 }
 
+// Of how many points a registration's verdict is told: a hundredth of a scan, since 13 matching
+// passes must not cost more than a tenth of the registration.
+constexpr std::size_t kJudgedPoints = 1000;
+
+std::optional<SearchableCloud> Thinned(const std::optional<SearchableCloud>& cloud,
+                                       std::size_t most) {
+  if (!cloud || cloud->cloud().size() <= most) {
+    return cloud;
+  }
+  const std::size_t every = (cloud->cloud().size() + most - 1) / most;
+  std::vector<char> keep(cloud->cloud().size());
+  for (std::size_t i = 0; i < keep.size(); i += every) {
+    keep[i] = 1;
+  }
+  return SearchableCloud(cloud->cloud().Select(keep), cloud->threads());
+}
+
+MetricClouds Thinned(const MetricClouds& clouds, std::size_t most) {
+  return {Thinned(clouds.points, most), Thinned(clouds.edges, most), Thinned(clouds.planar, most)};
+}
+
 }  // namespace
 
 void OdometryOptions::Check() const {
@@ -44,28 +65,8 @@ void OdometryOptions::Check() const {
 // A stage's outcome: T_target_source and how it came about.
 struct Odometry::Registration {
   SE3d T;
-  bool usable = false;
-  Termination termination = Termination::kFailure;
-  std::string message;
-  int iterations = 0;
-  long n = 0;
-  double rmse = 0;
-
-  void Run(const ObjectiveSet& set, const SE3d& T_start, const OdometryOptions& options) {
-    MinimizerOptions minimizer = options.minimizer;
-    minimizer.threads = options.threads;
-    const MinimizerSummary summary =
-        Minimize(JointObjective(set.objectives(), options.weights), T_start, minimizer);
-    usable = summary.Usable();
-    termination = summary.termination;
-    message = summary.message;
-    T = usable ? summary.T_target_source().Normalized() : T_start;
-    if (!summary.iterates.empty()) {
-      iterations = static_cast<int>(summary.iterates.size()) - 1;
-      n = summary.iterates.back().n;
-      rmse = summary.iterates.back().rmse;
-    }
-  }
+  MinimizerSummary summary;
+  Verdict verdict;
 };
 
 Odometry::Odometry(OdometryOptions options)
@@ -81,7 +82,10 @@ Odometry::~Odometry() = default;
 ObjectiveSetOptions Odometry::ObjectiveOptions() const {
   ObjectiveSetOptions objective = options_.objective;
   if (options_.adaptive_gate_m > 0) {
-    const double gate_m = gate_.MaxDistance_m();
+    double gate_m = gate_.MaxDistance_m();
+    if (objective.matching.max_distance_m > 0) {
+      gate_m = std::min(gate_m, objective.matching.max_distance_m);
+    }
     objective.matching.max_distance_m = gate_m;
     objective.line.max_neighbor_distance_m = gate_m;
     objective.patch.max_neighbor_distance_m = gate_m;
@@ -89,21 +93,37 @@ ObjectiveSetOptions Odometry::ObjectiveOptions() const {
   return objective;
 }
 
+Odometry::Registration Odometry::Register(const MetricClouds& source, const MetricClouds& target,
+                                          const SE3d& T_predicted) const {
+  VerdictOptions judge = options_.verdict;
+  judge.minimizer = options_.minimizer;
+  judge.minimizer.threads = options_.threads;
+  const ObjectiveSet set(source, target, options_.metrics, ObjectiveOptions());
+  Registration result;
+  result.summary =
+      Minimize(JointObjective(set.objectives(), options_.weights), T_predicted, judge.minimizer);
+  const ObjectiveSet few(Thinned(source, kJudgedPoints), target, options_.metrics,
+                         ObjectiveOptions());
+  result.verdict =
+      JudgePose(JointObjective(few.objectives(), options_.weights), result.summary, judge);
+  result.T = result.verdict.HasPose()
+                 ? result.verdict.WithPrediction(result.summary.T_target_source().Normalized(),
+                                                 T_predicted)
+                 : T_predicted;
+  return result;
+}
+
 Odometry::Registration Odometry::Register(const PreparedPair& scans,
                                           const SE3d& T_predicted) const {
-  Registration registration;
-  const auto run = [&](const PreparedPair& pair) {
-    registration.Run(ObjectiveSet(pair, options_.metrics, ObjectiveOptions()), T_predicted,
-                     options_);
+  const auto registered = [&](const PreparedPair& pair) {
+    return Register(pair.source.clouds(), pair.target.AsTarget(), T_predicted);
   };
-  if (options_.filters.Any()) {
-    run(scans.Select(
-        ApplyFilters(scans.source.cloud(), scans.target.cloud(), T_predicted, options_.filters),
-        options_.threads));
-  } else {
-    run(scans);
+  if (!options_.filters.Any()) {
+    return registered(scans);
   }
-  return registration;
+  return registered(scans.Select(
+      ApplyFilters(scans.source.cloud(), scans.target.cloud(), T_predicted, options_.filters),
+      options_.threads));
 }
 
 Odometry::Registration Odometry::RegisterToMap(const PreparedScan& source, const SE3d& T_predicted,
@@ -115,10 +135,7 @@ Odometry::Registration Odometry::RegisterToMap(const PreparedScan& source, const
   if (options_.filters.Any()) {  // Only with closest points; see OdometryOptions::Check.
     return Register({source, PreparedScan(*map.points)}, T_predicted);
   }
-  Registration registration;
-  registration.Run(ObjectiveSet(source.clouds(), map, options_.metrics, ObjectiveOptions()),
-                   T_predicted, options_);
-  return registration;
+  return Register(source.clouds(), map, T_predicted);
 }
 
 bool Odometry::MapsNow() const {
@@ -143,36 +160,46 @@ FrameResult Odometry::Add(PointCloud scan) {
   FrameResult result;
   result.points = current.cloud().size();
   if (last_) {
-    const SE3d T_predicted = options_.constant_velocity ? motion_ : SE3d();
+    const SE3d predicted_motion = options_.constant_velocity ? motion_ : SE3d();
     result.gate_m = ObjectiveOptions().matching.max_distance_m;
-    result.motion = T_predicted;
-    SE3d T_last_current = T_predicted;
+    result.motion = predicted_motion;
+    SE3d motion = predicted_motion;  // In kTwoStage with the map's correction.
     const auto take_over = [&](const Registration& registration) {
-      if (!registration.usable) {
-        LOG(WARNING) << "frame " << size_ << ": " << registration.message;
+      if (!registration.verdict.HasPose()) {
+        LOG(WARNING) << "frame " << size_ << ": " << registration.verdict.no_pose;
       }
-      result.registered = result.registered || registration.usable;
-      result.termination = registration.termination;
-      result.iterations += registration.iterations;
-      result.n = registration.n;
-      result.rmse = registration.rmse;
-      T_last_current = registration.T;
+      result.registered = result.registered || registration.verdict.HasPose();
+      result.termination = registration.summary.termination;
+      result.converged = registration.verdict.converged;
+      result.predicted_directions = static_cast<int>(registration.verdict.Unobservable().cols());
+      result.uncertain_directions =
+          static_cast<int>(registration.verdict.undetermined.size()) - result.predicted_directions;
+      if (!registration.summary.iterates.empty()) {
+        const Iterate& last = registration.summary.iterates.back();
+        result.iterations += static_cast<int>(registration.summary.iterates.size()) - 1;
+        result.n = last.n;
+        result.rmse = last.rmse;
+      }
     };
     try {
       if (options_.mode != OdometryMode::kScanToMap) {
-        take_over(Register({current, *last_}, T_predicted));
-        result.motion = T_last_current;
+        const Registration registration =
+            Register({current, *last_}, T_last_previous_ * predicted_motion);
+        take_over(registration);
+        motion = result.motion = T_last_previous_.Inverse() * registration.T;
       }
       if (MapsNow()) {
-        take_over(RegisterToMap(current, T_last_current, &result));
+        const Registration registration = RegisterToMap(current, motion, &result);
+        take_over(registration);
+        motion = registration.T;
       }
     } catch (const ComputationError& error) {  // A filter or a metric was left without a point.
       LOG(WARNING) << "frame " << size_ << ": " << error.what();
     }
     if (options_.mode == OdometryMode::kScanToMap) {
-      result.motion = T_last_current;
+      result.motion = motion;
     }
-    result.T_world_lidar = (T_world_last_ * T_last_current).Normalized();
+    result.T_world_lidar = (T_world_last_ * motion).Normalized();
   }
   Finish(std::move(current), result);
   return result;
@@ -186,10 +213,19 @@ void Odometry::Finish(PreparedScan scan, const FrameResult& result) {
   if (options_.adaptive_gate_m > 0 && last_) {
     gate_.Add(options_.constant_velocity ? motion_ : SE3d(), result.motion);
   }
-  if (options_.mode != OdometryMode::kScanToScan && (!last_ || MapsNow())) {
+  // An empty scan is nothing to register to: the next begins anew.
+  const bool has_pose = !last_ || last_->cloud().empty() || result.registered;
+  if (options_.mode != OdometryMode::kScanToScan && has_pose &&
+      (!last_ || last_->cloud().empty() || MapsNow()) &&
+      (!last_ || result.termination != Termination::kMaxIterations)) {
     map_.Insert(scan, result.T_world_lidar, size_);
   }
-  last_ = std::move(scan);
+  if (has_pose) {
+    last_ = std::move(scan);
+    T_last_previous_ = SE3d();
+  } else {
+    T_last_previous_ = T_last_previous_ * result.motion;
+  }
   T_world_last_ = result.T_world_lidar;
   motion_ = result.motion;
   ++size_;

@@ -12,6 +12,7 @@
 #include "icpscape/objective/objective_set.h"
 #include "icpscape/odometry/adaptive_gate.h"
 #include "icpscape/odometry/local_map.h"
+#include "icpscape/verdict/verdict.h"
 
 namespace icpscape {
 
@@ -36,6 +37,8 @@ struct OdometryOptions {
   ObjectiveSetOptions objective;
   MinimizerOptions minimizer;
   LocalMapOptions map;
+  /// Tolerances of the verdicts; the rest of it is as the loop has it.
+  VerdictOptions verdict;
   int map_every = 10;  ///< kTwoStage: a mapping step every so many scans.
   /// The predicted pose is the motion of the scan before; else the identity.
   bool constant_velocity = true;
@@ -54,21 +57,30 @@ struct FrameResult {
   /// Motion since the scan before, T_previous_current, as the predictor takes it: in kTwoStage
   /// before the map's correction.
   SE3d motion;
-  /// Whether a stage had an answer. False for the first scan, and where the predicted pose is used.
+  /// Whether a stage had an answer. False for the first scan, and where the predicted motion was
+  /// taken.
   bool registered = false;
   Termination termination = Termination::kFailure;
-  int iterations = 0;          ///< Of all stages.
-  long n = 0;                  ///< Pairs of the last stage, at its end.
-  double rmse = 0;             ///< Of the last stage, at its end.
-  double gate_m = 0;           ///< Longest distance of a pair; 0 is no limit.
-  std::size_t points = 0;      ///< After preparation.
-  std::size_t map_points = 0;  ///< Of the map that it was registered to; 0 without one.
+  bool converged = false;  ///< Of the last stage; see Verdict.
+  /// Directions that the objective does not see, whatever the tolerance: there the predicted motion
+  /// was taken. Of the last stage, as the next.
+  int predicted_directions = 0;
+  int uncertain_directions = 0;  ///< Directions whose predicted deviation is beyond the tolerance.
+  int iterations = 0;            ///< Of all stages.
+  long n = 0;                    ///< Pairs of the last stage, at its end.
+  double rmse = 0;               ///< Of the last stage, at its end.
+  double gate_m = 0;             ///< Longest distance of a pair; 0 is no limit.
+  std::size_t points = 0;        ///< After preparation.
+  std::size_t map_points = 0;    ///< Of the map that it was registered to; 0 without one.
 };
 
 /// Lidar odometry: feeds scans one after the other through preparation, filters and the closed
-/// loop [paper fig. 1], starting each registration at the predicted pose. A scan that cannot be
-/// registered (no pair is left, the loss is flat) keeps the predicted pose, and is not
-/// `registered`. Bit-identical for any number of threads.
+/// loop [paper fig. 1], starting each registration from the motion before. A scan that cannot be
+/// registered (no pair is left, fewer rows than directions, the loss is flat) gets the predicted
+/// motion and is left out of the map, and the next scan is not registered to it. Directions that a
+/// registration does not see (JudgePose over at most kJudgedPoints points) get the predicted
+/// motion. A scan that ended at the limit of steps is left out of the map as well. Bit-identical
+/// for any number of threads.
 class Odometry {
  public:
   /// Throws UsageError.
@@ -85,12 +97,14 @@ class Odometry {
 
   /// Number of scans so far.
   int size() const { return size_; }
-  /// The last scan as it was registered; null before the first.
+  /// The last scan that was registered, as it was; null before the first.
   const PreparedScan* last_scan() const { return last_ ? &*last_ : nullptr; }
 
  private:
   PreparedScan PrepareOrEmpty(PointCloud scan) const;
   struct Registration;
+  Registration Register(const MetricClouds& source, const MetricClouds& target,
+                        const SE3d& T_predicted) const;
   Registration Register(const PreparedPair& scans, const SE3d& T_predicted) const;
   Registration RegisterToMap(const PreparedScan& source, const SE3d& T_predicted,
                              FrameResult* result) const;
@@ -101,8 +115,9 @@ class Odometry {
   OdometryOptions options_;
   unsigned needs_ = 0;
   int size_ = 0;
-  std::optional<PreparedScan> last_;
-  SE3d T_world_last_;
+  std::optional<PreparedScan> last_;  // The last that was registered.
+  SE3d T_last_previous_;              // From it to the last of all.
+  SE3d T_world_last_;                 // Of the last of all, as the next.
   SE3d motion_;
   AdaptiveGate gate_;
   LocalMap map_;

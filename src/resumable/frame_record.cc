@@ -19,6 +19,9 @@ void ForEachNumber(Record& record, const Visit& visit) {
   auto& result = record.result;
   visit(result.registered);
   visit(result.termination);
+  visit(result.converged);
+  visit(result.predicted_directions);
+  visit(result.uncertain_directions);
   visit(result.iterations);
   visit(result.n);
   visit(result.rmse);

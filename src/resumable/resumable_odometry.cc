@@ -44,7 +44,7 @@ void ResumableOdometry::ForScans(std::size_t begin, std::size_t end,
                                  const Progress& progress) {
   for (std::size_t i = begin; i < end; ++i) {
     take(i);
-    if (map_) {
+    if (map_ && (i == 0 || records_.back().result.registered)) {
       NamingTheScan(i, [&] {
         map_->Insert(odometry_.last_scan()->cloud(), records_.back().result.T_world_lidar,
                      static_cast<int>(i));

@@ -109,13 +109,10 @@ TEST_F(Api, RegistersAsTheProgramDoesWithEveryKindOfOption) {
   options.T_initial = SE3d(Mat3::Identity(), Vec3(0.25, 0, 0));
   options.threads = 2;
   folder_->Write("initial.txt", FormatTransform(options.T_initial));
-  const std::vector<std::string> common = {"--max_distance_m=2",
-                                           "--fit_max_neighbor_distance_m=1",
-                                           "--loss=huber",
-                                           "--loss_scale_m=0.2",
-                                           "--normal_neighbors=12",
-                                           "--max_iterations=6",
-                                           "--initial=" + Path("initial.txt")};
+  const std::vector<std::string> common = {
+      "--max_distance_m=2", "--fit_max_neighbor_distance_m=1", "--loss=huber",
+      "--loss_scale_m=0.2", "--normal_neighbors=12",           "--max_iterations=6",
+      "--accept=limit",     "--initial=" + Path("initial.txt")};
   std::vector<std::string> features = common;
   features.insert(features.end(), {"--metrics=edge_to_line,planar_to_plane", "--weights=0.5,2"});
   ExpectSameRegistration(Register(*source_, *target_, options), Run("register", features));
@@ -180,16 +177,16 @@ TEST_F(Api, CovariancesAreThoseOfTheProgram) {
     EXPECT_EQ(directions[i].at("eigenvalue"),
               Number(eigen.eigenvalues[static_cast<Eigen::Index>(i % 6)]));
   }
-  const auto verdicts = ReadCsv((folder / "verdicts.csv").string());
+  const auto judgements = ReadCsv((folder / "degeneracy.csv").string());
   std::size_t judged = 0;
   for (const CovarianceResult& result : results) {
-    for (const Verdict& verdict : result.degeneracy) {
-      ASSERT_LT(judged, verdicts.size());
-      EXPECT_EQ(verdicts[judged].at("rule"), verdict.rule);
-      EXPECT_EQ(verdicts[judged++].at("value"), Number(verdict.value));
+    for (const Judgement& judgement : result.degeneracy) {
+      ASSERT_LT(judged, judgements.size());
+      EXPECT_EQ(judgements[judged].at("rule"), judgement.rule);
+      EXPECT_EQ(judgements[judged++].at("value"), Number(judgement.value));
     }
   }
-  EXPECT_EQ(judged, verdicts.size());
+  EXPECT_EQ(judged, judgements.size());
 }
 
 TEST_F(Api, DropsPointsThatNoRegistrationCanUse) {

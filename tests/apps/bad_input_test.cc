@@ -91,7 +91,7 @@ TEST_F(BadInput, WrongCommandLines) {
   EXPECT_FALSE(std::filesystem::exists(Path("out/curves.csv")));
 }
 
-TEST_F(BadInput, SimdLevelsThatAreNone) {
+TEST_F(BadInput, UnknownSimdLevels) {
   setenv("ICPSCAPE_SIMD", "sse9", 1);
   ExpectRefusal(RunProgram("landscape", {"--scene=highway"}), 1,
                 "ICPSCAPE_SIMD=sse9: expected one of baseline");

@@ -19,7 +19,7 @@ using testing_support::RunProgram;
 using testing_support::TemporaryFolder;
 
 // Measured: along the path the Octree Correspondence Filter returns its predicted pose.
-TEST(FilterBiasApp, MinimumFollowsThePriorAlongThePath) {
+TEST(FilterBiasApp, MinimumFollowsThePredictedPoseAlongThePath) {
   const TemporaryFolder folder;
   const std::string out = folder.path().string();
   const Outcome outcome = RunProgram(

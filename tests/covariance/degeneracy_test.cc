@@ -71,12 +71,12 @@ Mat6 HessianOf(const Constraints& constraints) {
 }
 
 // How much of the space of what a rule calls degenerate is in this direction: 1 is all of it.
-double DegenerateShare(const std::vector<Verdict>& verdicts, const std::string& rule,
+double DegenerateShare(const std::vector<Judgement>& judgements, const std::string& rule,
                        const Vec6& direction) {
   double share = 0;
-  for (const Verdict& verdict : verdicts) {
-    if (verdict.rule == rule && verdict.localizability == Localizability::kNone) {
-      share += std::pow(verdict.direction.dot(direction.normalized()), 2);
+  for (const Judgement& judgement : judgements) {
+    if (judgement.rule == rule && judgement.localizability == Localizability::kNone) {
+      share += std::pow(judgement.direction.dot(direction.normalized()), 2);
     }
   }
   return share;
@@ -84,12 +84,12 @@ double DegenerateShare(const std::vector<Verdict>& verdicts, const std::string& 
 
 // Every rule must call these axes degenerate, and no others.
 void ExpectDegenerate(const Constraints& scene, const std::vector<int>& axes) {
-  const std::vector<Verdict> verdicts = JudgeDegeneracy(HessianOf(scene), scene);
-  ASSERT_EQ(verdicts.size(), 24U);
+  const std::vector<Judgement> judgements = JudgeDegeneracy(HessianOf(scene), scene);
+  ASSERT_EQ(judgements.size(), 24U);
   for (const char* rule : {"loam_odometry", "loam_mapping", "x_icp", "dcreg"}) {
     for (int axis = 0; axis < 6; ++axis) {
       const bool expected = std::find(axes.begin(), axes.end(), axis) != axes.end();
-      EXPECT_NEAR(DegenerateShare(verdicts, rule, Vec6::Unit(axis)), expected ? 1 : 0, 1e-6)
+      EXPECT_NEAR(DegenerateShare(judgements, rule, Vec6::Unit(axis)), expected ? 1 : 0, 1e-6)
           << rule << ", axis " << axis;
     }
   }
@@ -102,30 +102,30 @@ TEST(Degeneracy, ACorridorSlidesAlong) { ExpectDegenerate(Corridor(), {kX}); }
 TEST(Degeneracy, APlaneSlidesBothWaysAndTurns) { ExpectDegenerate(Plane(), {kX, kY, kYaw}); }
 TEST(Degeneracy, ATunnelSlidesAlongAndRolls) { ExpectDegenerate(Cylinder(), {kX, kRoll}); }
 
-// X-ICP's verdict on x for `points` pairs whose normals have this x component, the rest of it to
+// X-ICP's judgement on x for `points` pairs whose normals have this x component, the rest of it to
 // the left and to the right in turns.
-Verdict XicpAlongX(double x_component, int points) {
+Judgement XicpAlongX(double x_component, int points) {
   Constraints walls;
   for (int i = 0; i < points; ++i) {
     const double rest = (i % 2 == 0 ? 1 : -1) * std::sqrt(1 - x_component * x_component);
     walls.push_back({Vec3(5, 0.1 * i, 0.2 * (i % 7)), Vec3(x_component, rest, 0)});
   }
-  for (const Verdict& verdict : JudgeXicp(HessianOf(walls), walls)) {
-    if (std::abs(verdict.direction[kX]) > 0.9) {
-      return verdict;
+  for (const Judgement& judgement : JudgeXicp(HessianOf(walls), walls)) {
+    if (std::abs(judgement.direction[kX]) > 0.9) {
+      return judgement;
     }
   }
   ADD_FAILURE() << "no direction along x";
-  return Verdict{};
+  return Judgement{};
 }
 
 // Normals along x contribute 1 each to L_c and L_s, and the thresholds of L_s decide: 35 and 180.
 TEST(Degeneracy, XicpCountsStrongContributions) {
   const auto category = [](int points) {
-    const Verdict verdict = XicpAlongX(1, points);
-    EXPECT_NEAR(verdict.value, points, 1e-9);
-    EXPECT_EQ(verdict.threshold, 180);
-    return verdict.localizability;
+    const Judgement judgement = XicpAlongX(1, points);
+    EXPECT_NEAR(judgement.value, points, 1e-9);
+    EXPECT_EQ(judgement.threshold, 180);
+    return judgement.localizability;
   };
   EXPECT_EQ(category(34), Localizability::kNone);
   EXPECT_EQ(category(35), Localizability::kPartial);
@@ -137,9 +137,9 @@ TEST(Degeneracy, XicpCountsStrongContributions) {
 // and 250.
 TEST(Degeneracy, XicpCountsWeakContributions) {
   const auto category = [](int points) {
-    const Verdict verdict = XicpAlongX(0.5, points);
-    EXPECT_NEAR(verdict.value, 0.5 * points, 1e-9);
-    return verdict.localizability;
+    const Judgement judgement = XicpAlongX(0.5, points);
+    EXPECT_NEAR(judgement.value, 0.5 * points, 1e-9);
+    return judgement.localizability;
   };
   EXPECT_EQ(category(358), Localizability::kNone);
   EXPECT_EQ(category(360), Localizability::kPartial);
@@ -167,11 +167,11 @@ TEST(Degeneracy, XicpTurnsAboutTheCentroid) {
     wall.push_back({Vec3(0, 10, i % 2 == 0 ? 3 : -3), Vec3::UnitX()});
   }
   int rotations = 0;
-  for (const Verdict& verdict : JudgeXicp(HessianOf(wall), wall)) {
-    if (verdict.direction.head<3>().norm() > 0.5) {
+  for (const Judgement& judgement : JudgeXicp(HessianOf(wall), wall)) {
+    if (judgement.direction.head<3>().norm() > 0.5) {
       ++rotations;
-      const bool about_y = std::abs(verdict.direction[1]) > 0.9;
-      EXPECT_NEAR(verdict.value, about_y ? 100 : 0, 1e-9) << verdict.direction.transpose();
+      const bool about_y = std::abs(judgement.direction[1]) > 0.9;
+      EXPECT_NEAR(judgement.value, about_y ? 100 : 0, 1e-9) << judgement.direction.transpose();
     }
   }
   EXPECT_EQ(rotations, 3);
@@ -180,9 +180,9 @@ TEST(Degeneracy, XicpTurnsAboutTheCentroid) {
 // The eigenvalue rule counts points; the condition numbers do not.
 TEST(Degeneracy, OnlyTheEigenvalueRuleDependsOnTheNumberOfPoints) {
   const Mat6 room = HessianOf(Room());
-  const auto degenerate = [](const std::vector<Verdict>& verdicts) {
-    return std::count_if(verdicts.begin(), verdicts.end(), [](const Verdict& verdict) {
-      return verdict.localizability == Localizability::kNone;
+  const auto degenerate = [](const std::vector<Judgement>& judgements) {
+    return std::count_if(judgements.begin(), judgements.end(), [](const Judgement& judgement) {
+      return judgement.localizability == Localizability::kNone;
     });
   };
   EXPECT_EQ(degenerate(JudgeEigenvalues("", "", room, kLoamMappingThreshold)), 0);
@@ -196,26 +196,26 @@ TEST(Degeneracy, DcregConditionsAreThoseOfTheSchurComplements) {
   // Coupling of rotation about y with translation along x: S_R = 30 - 10^2 / 100 = 29,
   // S_t = 100 - 10^2 / 30.
   hessian(1, 3) = hessian(3, 1) = 10;
-  const std::vector<Verdict> verdicts = JudgeDcreg(hessian);
-  EXPECT_NEAR(verdicts[0].value, 29.0 / 2, 1e-12);
-  EXPECT_NEAR(verdicts[1].value, 29.0 / 4, 1e-12);
-  EXPECT_NEAR(verdicts[2].value, 1, 1e-12);
-  EXPECT_NEAR(verdicts[3].value, (100 - 100.0 / 30) / 9, 1e-12);
-  EXPECT_EQ(verdicts[0].localizability, Localizability::kNone);
-  EXPECT_EQ(verdicts[1].localizability, Localizability::kFull);
-  EXPECT_EQ(verdicts[3].localizability, Localizability::kNone);
+  const std::vector<Judgement> judgements = JudgeDcreg(hessian);
+  EXPECT_NEAR(judgements[0].value, 29.0 / 2, 1e-12);
+  EXPECT_NEAR(judgements[1].value, 29.0 / 4, 1e-12);
+  EXPECT_NEAR(judgements[2].value, 1, 1e-12);
+  EXPECT_NEAR(judgements[3].value, (100 - 100.0 / 30) / 9, 1e-12);
+  EXPECT_EQ(judgements[0].localizability, Localizability::kNone);
+  EXPECT_EQ(judgements[1].localizability, Localizability::kFull);
+  EXPECT_EQ(judgements[3].localizability, Localizability::kNone);
 }
 
 // Degenerate is a condition above 10, not one of 10.
 TEST(Degeneracy, DcregDecidesAtTen) {
   Mat6 hessian = Mat6::Zero();
   hessian.diagonal() << 2, 20.2, 19, 1, 10, 9;
-  const std::vector<Verdict> verdicts = JudgeDcreg(hessian);
-  EXPECT_NEAR(verdicts[0].value, 10.1, 1e-12);
-  EXPECT_EQ(verdicts[0].threshold, 10);
-  EXPECT_EQ(verdicts[0].localizability, Localizability::kNone);
-  EXPECT_EQ(verdicts[3].value, 10);
-  EXPECT_EQ(verdicts[3].localizability, Localizability::kFull);
+  const std::vector<Judgement> judgements = JudgeDcreg(hessian);
+  EXPECT_NEAR(judgements[0].value, 10.1, 1e-12);
+  EXPECT_EQ(judgements[0].threshold, 10);
+  EXPECT_EQ(judgements[0].localizability, Localizability::kNone);
+  EXPECT_EQ(judgements[3].value, 10);
+  EXPECT_EQ(judgements[3].localizability, Localizability::kFull);
 }
 
 // The turn about y is coupled by c with a translation along z that has the eigenvalue e, beside one
@@ -225,9 +225,9 @@ TEST(Degeneracy, DcregLeavesOutWhatIsSingular) {
     Mat6 hessian = Mat6::Zero();
     hessian.diagonal() << 2, 30, 4, 100, 50, e;
     hessian(1, 5) = hessian(5, 1) = std::sqrt(10 * e);
-    const std::vector<Verdict> verdicts = JudgeDcreg(hessian);
-    EXPECT_EQ(verdicts[3].localizability, Localizability::kNone) << "along z";
-    return 2 * verdicts[0].value;
+    const std::vector<Judgement> judgements = JudgeDcreg(hessian);
+    EXPECT_EQ(judgements[3].localizability, Localizability::kNone) << "along z";
+    return 2 * judgements[0].value;
   };
   EXPECT_NEAR(largest_of_rotation(1e-9), 20, 1e-6);
   EXPECT_NEAR(largest_of_rotation(1e-11), 30, 1e-6);
@@ -243,11 +243,11 @@ TEST(Degeneracy, LoamsThresholdsAreTenAndAHundred) {
   Mat6 hessian = Mat6::Zero();
   hessian.diagonal() << 9.9, 10, 10.1, 99, 100, 128;
   int odometry = 0, mapping = 0;
-  for (const Verdict& verdict : JudgeDegeneracy(hessian, {})) {
-    const bool none = verdict.localizability == Localizability::kNone;
-    odometry += verdict.rule == "loam_odometry" && none ? 1 : 0;
-    mapping += verdict.rule == "loam_mapping" && none ? 1 : 0;
-    EXPECT_NE(verdict.rule, "x_icp") << "there are no pairs";
+  for (const Judgement& judgement : JudgeDegeneracy(hessian, {})) {
+    const bool none = judgement.localizability == Localizability::kNone;
+    odometry += judgement.rule == "loam_odometry" && none ? 1 : 0;
+    mapping += judgement.rule == "loam_mapping" && none ? 1 : 0;
+    EXPECT_NE(judgement.rule, "x_icp") << "there are no pairs";
   }
   EXPECT_EQ(odometry, 1);
   EXPECT_EQ(mapping, 4);
@@ -304,9 +304,9 @@ TEST(Degeneracy, AHighwayHoldsLeastAlongItself) {
   EXPECT_EQ(static_cast<long>(constraints.size()), objective.Evaluate(T, matches, 2).n());
   // The constraints are the rows of J.
   EXPECT_LE((HessianOf(constraints) - hessian).norm(), 1e-9 * hessian.norm());
-  const std::vector<Verdict> verdicts = JudgeDegeneracy(hessian, constraints);
-  EXPECT_GT(DegenerateShare(verdicts, "dcreg", Vec6::Unit(kX)), 0.9);
-  EXPECT_EQ(DegenerateShare(verdicts, "loam_mapping", Vec6::Unit(kX)), 0);
+  const std::vector<Judgement> judgements = JudgeDegeneracy(hessian, constraints);
+  EXPECT_GT(DegenerateShare(judgements, "dcreg", Vec6::Unit(kX)), 0.9);
+  EXPECT_EQ(DegenerateShare(judgements, "loam_mapping", Vec6::Unit(kX)), 0);
 }
 
 }  // namespace

@@ -33,11 +33,14 @@ TEST(RegistrationUncertainty, IsThatOfTheSolution) {
   const Vec6 weakest = result.directions.directions.col(0);
   const Vec6 product = scale.asDiagonal() * hessian * scale.asDiagonal() * weakest;
   EXPECT_LT((product - result.directions.eigenvalues[0] * weakest).norm(), 1e-9 * product.norm());
-  EXPECT_EQ(result.verdicts.size(), 4U * 6U);
+  EXPECT_EQ(result.judgements.size(), 4U * 6U);
   for (const EstimatedCovariance& entry : result.covariances) {
     EXPECT_EQ(entry.covariance.has_value(), entry.reason.empty());
   }
-  EXPECT_EQ(result.covariances[2].reason, "the points have no rings");
+  EXPECT_EQ(
+      result.covariances[2].reason,
+      "the clouds carry no ring numbers (those of KITTI's scans are recovered for edges and planar "
+      "points alone)");
 }
 
 TEST(RegistrationUncertainty, SaysWhyThereIsNone) {

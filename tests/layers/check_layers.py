@@ -26,6 +26,7 @@ src/resumable
 src/api
 src/explain
 src/odometry
+src/verdict
 src/covariance
 src/prediction
 src/paper
@@ -57,7 +58,7 @@ TARGETS = {
 SYSTEM = ["sys"]  # Headers in folders that are of no library.
 ONE_FILE = {"pcl": "src/io/point_files.cc"}  # All that may know the library.
 
-# Folders whose files must stand in a layer.
+# Folders whose files must be in a layer.
 TREES = ["tests", "examples", "apps", "src", "residuals"]
 OWN = [*TREES, "icpscape"]  # How the names of our own headers begin.
 # --flag in a string or a comment; outside of them it is a decrement.

@@ -130,7 +130,7 @@ TEST_P(StepsInBothModes, EndAtAPerfectFit) {
   options.min_step_m = options.min_step_rad = 0;
   const MinimizerSummary summary = Turntable(0.995).Minimized(0.2, options);
   EXPECT_TRUE(summary.Usable()) << summary.message;
-  EXPECT_EQ(summary.termination, Termination::kNoDescent);
+  EXPECT_EQ(summary.termination, Termination::kConverged);
   EXPECT_EQ(summary.final_cost(), 0);
   EXPECT_NEAR(Turntable::AngleAt(summary.T_target_source()), std::acos(0.995), 1e-6);
 }

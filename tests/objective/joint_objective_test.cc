@@ -157,7 +157,7 @@ TEST(JointObjective, OutlivesTheObjectivesThatItIsMadeOf) {
   EXPECT_NEAR(moved.Evaluate(T, 1).sums.cost, cost, 1e-12 * cost);
 }
 
-TEST(JointObjective, RefusesWeightsThatAreNone) {
+TEST(JointObjective, RefusesWeightsThatAreNotPositive) {
   const RoomPair room;
   const ObjectiveSet set(AsPrepared(room.source, room.target, room.features), {"point_to_point"},
                          {});

@@ -26,11 +26,22 @@ TEST(AdaptiveGate, IsThreeRootMeanSquares) {
 
 // At 100 m, a turn by 60 degrees moves a point by 2 * 100 * sin(30 deg) = 100 m.
 TEST(AdaptiveGate, TakesTurnsAtTheFarthestRange) {
-  AdaptiveGate gate(1);
+  AdaptiveGate gate(90);
   gate.Add(Motion(0, 0), Motion(M_PI / 3, 0));
-  EXPECT_NEAR(gate.MaxDistance_m(), 3 * std::sqrt((1 + 1e4) / 2), 1e-9);
+  EXPECT_NEAR(gate.MaxDistance_m(), 3 * std::sqrt((8100 + 1e4) / 2), 1e-9);
   gate.Add(Motion(0.5, 0), Motion(0.5 - M_PI, 0.25));  // The farthest: 200 m, and the translation.
-  EXPECT_NEAR(gate.MaxDistance_m(), 3 * std::sqrt((1 + 1e4 + 200.25 * 200.25) / 3), 1e-9);
+  EXPECT_NEAR(gate.MaxDistance_m(), 3 * std::sqrt((8100 + 1e4 + 200.25 * 200.25) / 3), 1e-9);
+}
+
+// One scan that is 100 m off counts as 10 m, and leaves the gate at five times the first error.
+TEST(AdaptiveGate, HasACeiling) {
+  AdaptiveGate gate(2);
+  gate.Add(Motion(0, 0), Motion(0, 100));
+  EXPECT_EQ(gate.MaxDistance_m(), 10);
+  for (int i = 0; i < 8; ++i) {
+    gate.Add(Motion(0, 0), Motion(0, 0.2));
+  }
+  EXPECT_NEAR(gate.MaxDistance_m(), 3 * std::sqrt((4 + 100 + 8 * 0.04) / 10), 1e-12);
 }
 
 // The error is the motion from the predicted to the found pose: what they share does not count.

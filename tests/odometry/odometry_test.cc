@@ -196,7 +196,7 @@ TEST(Odometry, CountsTheIterationsOfBothStagesAndMapsTheScansOfTheSecond) {
   EXPECT_EQ(results[3].map_points, results[0].points);
 }
 
-TEST(Odometry, RegistersToTheMapAloneWhereItMust) {
+TEST(Odometry, SkipsAnEmptyScan) {
   OdometryOptions options = Options(OdometryMode::kTwoStage);
   options.map_every = 1;
   std::vector<PointCloud> scans = FirstScans(5);
@@ -204,12 +204,13 @@ TEST(Odometry, RegistersToTheMapAloneWhereItMust) {
   const auto results = RunAll(options, scans);
   EXPECT_FALSE(results[3].registered);
   EXPECT_TRUE(results[4].registered);
-  EXPECT_EQ(results[4].motion.Matrix(), results[3].motion.Matrix());  // Of the fast stage: none.
+  // The empty scan is skipped: the fast stage goes on from the one before it.
+  EXPECT_NE(results[4].motion.Matrix(), results[3].motion.Matrix());
   EXPECT_LT(DistanceM(results[4].T_world_lidar, TownDrive().T_world_lidar[4]), 0.1);
 }
 
 // Rings of eight points have no edges, but are points among which others find lines.
-TEST(Odometry, RegistersToTheScanAloneWhereItMust) {
+TEST(Odometry, SkipsAScanWithoutEdges) {
   OdometryOptions options = Options(OdometryMode::kTwoStage, {"edge_to_line"});
   options.preparation.voxel_m = 0;
   options.map_every = 1;
@@ -220,11 +221,9 @@ TEST(Odometry, RegistersToTheScanAloneWhereItMust) {
   }
   const auto results = RunAll(options, scans);
   EXPECT_FALSE(results[2].registered);
-  EXPECT_EQ(results[3].map_points, 0U);
+  EXPECT_GT(results[3].map_points, 0U);  // It did not take the place of the scan before.
   EXPECT_TRUE(results[3].registered);
-  EXPECT_NE(results[3].motion.Matrix(), results[2].motion.Matrix());
-  EXPECT_EQ((results[2].T_world_lidar * results[3].motion).Normalized().Matrix(),
-            results[3].T_world_lidar.Matrix());
+  EXPECT_LT(DistanceM(results[3].T_world_lidar, TownDrive().T_world_lidar[3]), 0.2);
 }
 
 TEST(Odometry, BeginsWithAnyFirstScan) {

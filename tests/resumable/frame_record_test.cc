@@ -35,6 +35,9 @@ void ExpectSame(const FrameRecord& a, const FrameRecord& b) {
   EXPECT_TRUE(SameBits(a.odometry_s, b.odometry_s));
   EXPECT_EQ(a.result.registered, b.result.registered);
   EXPECT_EQ(a.result.termination, b.result.termination);
+  EXPECT_EQ(a.result.converged, b.result.converged);
+  EXPECT_EQ(a.result.predicted_directions, b.result.predicted_directions);
+  EXPECT_EQ(a.result.uncertain_directions, b.result.uncertain_directions);
   EXPECT_EQ(a.result.iterations, b.result.iterations);
   EXPECT_EQ(a.result.n, b.result.n);
   EXPECT_TRUE(SameBits(a.result.rmse, b.result.rmse));
@@ -53,6 +56,9 @@ FrameRecord Example() {
   record.odometry_s = 0.1;
   record.result.registered = true;
   record.result.termination = Termination::kNoDescent;
+  record.result.converged = true;
+  record.result.predicted_directions = 2;
+  record.result.uncertain_directions = 3;
   record.result.iterations = 7;
   record.result.n = 123456;
   record.result.rmse = 0.03125;
@@ -102,7 +108,7 @@ TEST(FrameRecord, ReadsBackNan) {
 TEST(FrameRecord, RefusesGarbage) {
   const std::string good = FormatFrameRecord(Example());
   const std::vector<std::string> words = Split(good, ' ');
-  ASSERT_EQ(words.size(), 1U + 10U + 12U + 12U);
+  ASSERT_EQ(words.size(), 1U + 13U + 12U + 12U);
   const auto refused = [](const std::string& text) {
     return MessageOf([&] { ParseFrameRecord(text, "the place"); }) ==
            "the place: no record of a scan; expected a journal of an odometry.";
@@ -120,13 +126,13 @@ TEST(FrameRecord, RefusesGarbage) {
     shorter.erase(shorter.begin() + static_cast<std::ptrdiff_t>(i));
     EXPECT_TRUE(refused(Join(shorter, " "))) << i;
   }
-  for (std::size_t i = 11; i < words.size(); ++i) {  // Poses.
+  for (std::size_t i = 14; i < words.size(); ++i) {  // Poses.
     std::vector<std::string> changed = words;
     changed[i] = "nan";
     EXPECT_TRUE(refused(Join(changed, " "))) << i;
   }
-  // registered, termination, iterations, n, points, map_points.
-  for (const std::size_t i : {1U, 2U, 3U, 4U, 7U, 8U}) {
+  // All but rmse, gate_m and the times.
+  for (const std::size_t i : {1U, 2U, 3U, 4U, 5U, 6U, 7U, 10U, 11U}) {
     for (const char* bad : {"nan", "0.5", "-1", "1e300"}) {
       std::vector<std::string> changed = words;
       changed[i] = bad;
@@ -137,7 +143,7 @@ TEST(FrameRecord, RefusesGarbage) {
   changed[1] = "2";  // Neither false nor true.
   EXPECT_TRUE(refused(Join(changed, " ")));
   changed = words;
-  changed[2] = "8";  // There are eight terminations.
+  changed[2] = "9";  // There are nine terminations.
   EXPECT_TRUE(refused(Join(changed, " ")));
   EXPECT_FALSE(refused(good));
 }

@@ -23,7 +23,7 @@ TEST(SimdLevel, IsTheWidestUnlessTheEnvironmentNamesOne) {
   unsetenv("ICPSCAPE_SIMD");
 }
 
-TEST(SimdLevel, RefusesNamesThatAreNone) {
+TEST(SimdLevel, RefusesUnknownNames) {
   setenv("ICPSCAPE_SIMD", "sse9", 1);
   try {
     ActiveSimdLevel();
