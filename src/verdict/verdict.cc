@@ -41,6 +41,9 @@ struct Extent {
     centroid /= static_cast<double>(points);
     ForEach(objective, [&](const Vec3& p) { radius_m += (p - centroid).squaredNorm(); });
     radius_m = std::sqrt(radius_m / static_cast<double>(points));
+    if (radius_m == 0) {
+      radius_m = 1;  // Points in one place see no rotation, whatever its lever arm.
+    }
   }
 
  private:

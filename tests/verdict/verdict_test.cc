@@ -167,6 +167,17 @@ TEST(Verdict, FewerRowsThanDirectionsAreNoPose) {
   EXPECT_EQ(six.undetermined.size(), 6U);
 }
 
+// Points in one place: they see where they are, and no rotation.
+TEST(Verdict, PointsInOnePlaceSeeNoRotation) {
+  PointCloud cloud;
+  for (int i = 0; i < 8; ++i) {
+    AddPoint({1, 2, 3}, &cloud);
+  }
+  const Verdict verdict = Judged({cloud, cloud}, {}, SE3d(), "point_to_point");
+  EXPECT_THAT(verdict.UndeterminedNames(), ElementsAre("roll", "pitch", "yaw"));
+  EXPECT_EQ(verdict.deviation.tail<3>(), Vec3::Zero());
+}
+
 TEST(Verdict, APerfectFitIsDeterminedAndConverged) {
   const testing_support::MovedRoom room(4000, SE3d());
   const Verdict verdict = Judged({room.target, room.target});
