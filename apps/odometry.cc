@@ -78,9 +78,7 @@ void RunOdometry() {
   DrawTrajectories({trajectory}, TitleWithFlags(sequence.title + ", odometry"), &run);
   run.manifest()->AddTiming("results");
   run.Finish();
-  if (!AcceptedFromFlags().undetermined) {
-    RequireRegistered(odometry.records());
-  }
+  RequireAccepted(odometry.records(), AcceptedFromFlags());
 }
 
 }  // namespace

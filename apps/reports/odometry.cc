@@ -118,15 +118,18 @@ NamedTrajectory ReportOdometry(const ResumableOdometry& odometry, Run* run) {
   return named;
 }
 
-void RequireRegistered(const std::vector<FrameRecord>& records) {
-  const auto is_doubtful = [](const FrameRecord& record) {
-    return !record.result.registered || record.result.predicted_directions > 0;
+void RequireAccepted(const std::vector<FrameRecord>& records, const AcceptedVerdicts& accepted) {
+  const auto is_doubtful = [&](const FrameRecord& record) {
+    const FrameResult& r = record.result;
+    const bool predicted = !r.registered || r.predicted_directions > 0;
+    return (predicted && !accepted.undetermined) ||
+           (r.registered && r.termination == Termination::kMaxIterations && !accepted.limit);
   };
   const auto doubtful = std::count_if(records.begin() + 1, records.end(), is_doubtful);
   if (doubtful > 0) {
     throw DoubtfulPose(std::to_string(doubtful) + " of " + std::to_string(records.size() - 1) +
-                       " scans have the predicted motion, in some direction or in all. The results "
-                       "are written; --accept=undetermined takes them.");
+                       " scans have the predicted motion, in some direction or in all, or ended at "
+                       "the limit of steps. The results are written; --accept takes such scans.");
   }
 }
 

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "apps/reports/trajectory.h"
+#include "apps/reports/verdict.h"
 #include "apps/run/run.h"
 #include "icpscape/resumable/resumable_odometry.h"
 
@@ -15,8 +16,9 @@ namespace icpscape {
 /// truth, where that is known for more than one scan, both as KITTI's files have them.
 NamedTrajectory ReportOdometry(const ResumableOdometry& odometry, Run* run);
 
-/// Throws DoubtfulPose where scans have the predicted motion.
-void RequireRegistered(const std::vector<FrameRecord>& records);
+/// Throws DoubtfulPose for scans that have the predicted motion, in some direction or in all, and
+/// for those that ended at the limit of steps, unless that is accepted.
+void RequireAccepted(const std::vector<FrameRecord>& records, const AcceptedVerdicts& accepted);
 
 /// Prints and records how far the end is off the truth.
 void ReportEnd(const TrajectoryPair& pair, Manifest* manifest);
