@@ -3,6 +3,7 @@
 
 #include <cmath>
 
+#include "icpscape/common/error.h"
 #include "icpscape/common/text.h"
 #include "icpscape/common/vehicle.h"
 
@@ -19,11 +20,19 @@ Vec6 BicycleTwist(const SE3d& motion) {
   return twist;
 }
 
+// Of a path, in m and rad.
+constexpr double kShortest = 1e-9;
+
 }  // namespace
 
 Path::Path(const SE3d& T_0, const SE3d& T_1, PathKind kind)
     : kind_(kind), T_0_(T_0), T_1_(T_1), remainder_(Vec6::Zero()) {
   const SE3d motion = T_0.Inverse() * T_1;
+  if (motion.t().norm() < kShortest && motion.LogRotation().norm() < kShortest) {
+    throw ComputationError(
+        "the path has no length, so that u has no meaning; expected a start other than the "
+        "reference.");
+  }
   twist_ = kind == PathKind::kBicycle ? BicycleTwist(motion) : motion.Log();
   if (kind == PathKind::kBicycle) {
     remainder_ = (SE3d::Exp(twist_).Inverse() * motion).Log();

@@ -41,6 +41,8 @@ struct Names<PathKind> {
 /// the axle changes nothing.
 class Path {
  public:
+  /// Throws ComputationError where the two poses are the same (to 1e-9 m and rad): u then has no
+  /// meaning.
   Path(const SE3d& T_0, const SE3d& T_1, PathKind kind);
 
   SE3d Pose(double u) const;

@@ -82,6 +82,17 @@ TEST(Path, TinyAndNoRotation) {
   }
 }
 
+TEST(Path, RefusesToHaveNoLength) {
+  const SE3d T = SE3d::Exp((Vec6() << 0.1, 0.2, 0.3, 4, 5, 6).finished());
+  for (const PathKind kind : AllOf<PathKind>()) {
+    EXPECT_THROW(Path(T, T, kind), ComputationError);
+    Vec6 xi = Vec6::Zero();
+    xi[2] = 1e-6;  // A turn on the spot, or a thousandth of a millimetre, is a path.
+    EXPECT_NO_THROW(Path(T, T * SE3d::Exp(xi), kind));
+    EXPECT_NO_THROW(Path(SE3d(), SE3d(Mat3::Identity(), Vec3(0, 1e-6, 0)), kind));
+  }
+}
+
 TEST(Path, NamesGoRound) {
   EXPECT_EQ(FromName<PathKind>("geodesic"), PathKind::kGeodesic);
   EXPECT_EQ(FromName<PathKind>("lerp_slerp"), PathKind::kLerpSlerp);
