@@ -146,9 +146,14 @@ MinimizerSummary Loop::EndFlat() {
 
 MinimizerSummary Loop::EndLimitCycle(std::size_t period) {
   std::vector<Iterate>& iterates = summary_.iterates;
-  const auto best =
-      std::min_element(iterates.end() - static_cast<std::ptrdiff_t>(period), iterates.end(),
-                       [](const Iterate& a, const Iterate& b) { return a.rmse < b.rmse; });
+  const auto first = iterates.end() - static_cast<std::ptrdiff_t>(period);
+  const auto best = std::min_element(
+      first, iterates.end(), [](const Iterate& a, const Iterate& b) { return a.rmse < b.rmse; });
+  for (auto member = first; member != iterates.end(); ++member) {
+    const auto [m, rad] = Length(best->T_target_source, member->T_target_source);
+    summary_.cycle_m = std::max(summary_.cycle_m, m);
+    summary_.cycle_rad = std::max(summary_.cycle_rad, rad);
+  }
   iterates.erase(best + 1, iterates.end());
   return End(Termination::kLimitCycle,
              "The same " + std::to_string(period) + " poses came again; this is the best of them.");

@@ -101,6 +101,8 @@ struct MinimizerSummary {
   Termination termination = Termination::kFailure;
   std::string message;  ///< One sentence.
   int matching_passes = 0;
+  /// kLimitCycle: how far its poses are from the best of them, at most.
+  double cycle_m = 0, cycle_rad = 0;
 
   bool Usable() const { return IsUsable(termination); }
   /// The result and its cost: the re-associated objective's value at that pose.

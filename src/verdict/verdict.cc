@@ -21,6 +21,8 @@ using Directions = Eigen::Matrix<double, 6, Eigen::Dynamic>;
 // Eigenvalues of H and of B below these shares of the largest are none.
 constexpr double kLeastOfH = 1e-12;
 constexpr double kLeastOfB = 1e-6;
+// A limit cycle within this share of the tolerances is as good as one pose.
+constexpr double kHarmlessCycle = 0.1;
 // Half the distance over which gradients are differenced (m), but no more than this share of the
 // cloud's radius. Long: over 2 cm the noise of a corridor's walls looks like a minimum along it,
 // over 10 cm it does not, and where a scan is determined the two agree.
@@ -256,6 +258,10 @@ Verdict JudgePose(const JointObjective& objective, const MinimizerSummary& summa
   }
 
   verdict.converged = StopsAsWanted(summary.termination);
+  if (summary.termination == Termination::kLimitCycle) {
+    verdict.converged = summary.cycle_m < kHarmlessCycle * options.tolerance_m &&
+                        summary.cycle_rad < kHarmlessCycle * options.tolerance_rad;
+  }
   if (summary.termination == Termination::kNoDescent && kept.cols() > 0) {
     // A step that would be short anyway is convergence: rounding keeps the cost from falling.
     const Directions motions = from_centroid * kept;

@@ -43,7 +43,8 @@ struct VerdictOptions {
 /// What a registration's answer is worth, told from the data alone.
 struct Verdict {
   Termination termination = Termination::kFailure;
-  /// The loop ended where it wanted to: by its own stop rule, or by one that was asked for.
+  /// The loop ended by its own stop rule, by one that was asked for, or in a limit cycle whose
+  /// poses differ by less than a tenth of the tolerances.
   bool converged = false;
   long pairs = 0;            ///< At the pose.
   long rows = 0;             ///< Residual rows of these pairs.

@@ -46,6 +46,7 @@ TEST(LimitCycle, EndsAtItsBestPose) {
   // Matched from behind to the copy ahead: rms sqrt(0.2^2); from ahead to the noisy one: more.
   EXPECT_NEAR(summary.T_target_source().t().x(), -0.1, 1e-3);
   EXPECT_NEAR(summary.iterates.back().rmse, 0.2, 0.03);
+  EXPECT_NEAR(summary.cycle_m, 0.2, 0.01);  // From -0.1 to 0.1 m.
 }
 
 // Slow convergence is none: Huber's loss over a room from far away comes closer at every step.

@@ -237,6 +237,23 @@ TEST(Verdict, TakesThePredictionWhereNothingIsSeen) {
   EXPECT_EQ(verdict.WithPrediction(found, predicted).t(), found.t());
 }
 
+// Poses that go back and forth by less than a tenth of the tolerance are one pose.
+TEST(Verdict, ASmallLimitCycleIsConvergence) {
+  const testing_support::MovedRoom room(4000, SE3d());
+  const ClosestPointMatcher matcher(room.source, room.target);
+  const Objective objective("point_to_plane", matcher);
+  MinimizerSummary summary = Minimize(objective, SE3d(), {});
+  summary.termination = Termination::kLimitCycle;
+  const auto converged = [&](double cycle_m, double cycle_rad) {
+    summary.cycle_m = cycle_m;
+    summary.cycle_rad = cycle_rad;
+    return JudgePose(objective, summary, {}).converged;
+  };
+  EXPECT_TRUE(converged(4e-3, 4e-4));  // Tolerances of 0.05 m and 0.0052 rad.
+  EXPECT_FALSE(converged(6e-3, 4e-4));
+  EXPECT_FALSE(converged(4e-3, 6e-4));
+}
+
 TEST(Verdict, SaysWhereTheStepsEnded) {
   const testing_support::MovedRoom room(4000, SE3d(Mat3::Identity(), Vec3(0.4, 0, 0)));
   VerdictOptions options;
