@@ -73,6 +73,7 @@ void CheckCloud(const PointCloud& cloud, const std::string& role) {
   require(cloud.nz.size(), "nz", true);
   require(cloud.ring.size(), "ring", true);
   require(cloud.label.size(), "label", true);
+  require(cloud.time_s.size(), "time_s", true);
 }
 
 }  // namespace

@@ -31,11 +31,15 @@ PointCloud PointCloud::Select(const std::vector<char>& keep) const {
   SelectArray(intensity, keep, &out.intensity);
   SelectArray(ring, keep, &out.ring);
   SelectArray(label, keep, &out.label);
+  SelectArray(time_s, keep, &out.time_s);
+  out.sensor = sensor;
+  out.origin = origin;
   return out;
 }
 
 PointCloud PointCloud::Transformed(const SE3d& T_other_this) const {
   PointCloud out = *this;
+  out.sensor = T_other_this * sensor;
   ForEachKind([&](auto kind) {
     using Kind = decltype(kind);
     const auto arrays = ArraysOf(kind);

@@ -15,7 +15,7 @@
 
 namespace icpscape {
 
-/// One lidar scan in its sensor's frame: x forward, y left, z up, sensor at the origin; metres.
+/// One lidar scan: x forward, y left, z up; metres.
 ///
 /// A structure of arrays of float. Each optional array is either empty or as long as x; readers
 /// and filters keep them in step. All coordinates are finite (the readers drop the rest).
@@ -25,6 +25,12 @@ struct PointCloud {
   std::vector<float> nx, ny, nz;    ///< Optional unit normals; (0, 0, 0) where there is none.
   std::vector<std::int32_t> ring;   ///< Optional, scan line of the sensor, 0 the uppermost.
   std::vector<std::int32_t> label;  ///< Optional, what was hit (simulated scans know it).
+  std::vector<float> time_s;        ///< Optional, when it was measured: seconds, from any start.
+
+  Vec3 sensor = Vec3::Zero();  ///< Where the sensor was, in the frame of x, y, z.
+  /// What was taken out of the coordinates before they became float: origin + (x, y, z) are those
+  /// of the user (m). Whole metres; 0 unless the cloud lies far from the user's origin.
+  Vec3 origin = Vec3::Zero();
 
   std::size_t size() const { return x.size(); }
   bool empty() const { return x.empty(); }
