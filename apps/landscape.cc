@@ -48,7 +48,9 @@ void CheckFlags() {
 // Prints how far point-to-plane moves from the ground truth, and returns the pose for u = 1.
 SE3d ReferencePose(const ScanPair& pair, const PreparedPair& scans, Manifest* manifest) {
   const bool is_refined = FLAGS_reference == "refined";
-  ReportPose("motion", "motion", *pair.T_ground_truth, manifest);
+  ReportDisplacement(
+      "motion", "motion",
+      MotionOfSensor(scans.source.cloud(), scans.target.cloud(), *pair.T_ground_truth), manifest);
   const auto check = ReportGroundTruthCheck(pair, scans, is_refined, ThreadsFromFlags(), manifest);
   return is_refined ? check->T_refined : *pair.T_ground_truth;
 }

@@ -57,9 +57,12 @@ void EvaluateScene(const std::vector<Figure>& figures, const CurveOptions& optio
   std::cout << TitleOf(first) << ": source " << scans.source.cloud().size() << " points ("
             << scans.source.features()->num_edge << " edges), target "
             << scans.target.cloud().size() << " points\n";
-  ReportPose("  motion", "motion_" + first.scene, T_ground_truth, manifest);
-  ReportPose("  predicted pose, off", "predicted_off_" + first.scene,
-             T_ground_truth.Inverse() * T_predicted, manifest);
+  const PointCloud& source = scans.source.cloud();
+  ReportDisplacement("  motion", "motion_" + first.scene,
+                     MotionOfSensor(source, scans.target.cloud(), T_ground_truth), manifest);
+  ReportDisplacement("  predicted pose, off", "predicted_off_" + first.scene,
+                     DisplacementAt(CentroidOf(source), T_ground_truth.Inverse() * T_predicted),
+                     manifest);
   std::vector<FigureCurve> curves;
   std::set<Variant> variants;
   for (const Figure& figure : figures) {

@@ -80,16 +80,21 @@ void Register() {
   }
   const SE3d& T = summary.T_target_source();
   ReportRegistration(objective.Name(), summary, &run);
+  const PointCloud& source = scans.source.cloud();
+  ReportDisplacement("motion", "motion", MotionOfSensor(source, scans.target.cloud(), T), manifest);
   PrintVerdict(verdict);
   WriteVerdicts(verdicts, &run);
   manifest->SetResult("searches_built", static_cast<double>(SearchesBuilt()));
-  WritePly(run.File("aligned.ply"), scans.source.cloud().Transformed(T));
+  WritePly(run.File("aligned.ply"), source.Transformed(T));
+  const auto report_off = [&](const char* what, const char* name, const SE3d& T_reference) {
+    ReportDisplacement(what, name, DisplacementAt(CentroidOf(source), T_reference.Inverse() * T),
+                       manifest);
+  };
   if (pair.T_ground_truth) {
-    ReportPose("off the ground truth", "off", pair.T_ground_truth->Inverse() * T, manifest);
+    report_off("off the ground truth", "off", *pair.T_ground_truth);
   }
   if (check) {
-    ReportPose("off the refined reference", "off_refined", check->T_refined.Inverse() * T,
-               manifest);
+    report_off("off the refined reference", "off_refined", check->T_refined);
     if (FLAGS_starts > 0) {
       RunStarts(objective, check->T_refined, options, &run);
     }

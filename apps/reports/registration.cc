@@ -18,11 +18,11 @@ constexpr double kDegrees = 180 / M_PI;
 
 }  // namespace
 
-void ReportPose(const std::string& what, const std::string& name, const SE3d& T,
-                Manifest* manifest) {
-  const double degrees = T.LogRotation().norm() * kDegrees;
-  std::printf("%s: %.4f m, %.4f deg\n", what.c_str(), T.t().norm(), degrees);
-  manifest->SetResult(name + "_m", T.t().norm());
+void ReportDisplacement(const std::string& what, const std::string& name,
+                        const Displacement& displacement, Manifest* manifest) {
+  const double degrees = displacement.rad * kDegrees;
+  std::printf("%s: %.4f m, %.4f deg\n", what.c_str(), displacement.m, degrees);
+  manifest->SetResult(name + "_m", displacement.m);
   manifest->SetResult(name + "_deg", degrees);
 }
 
@@ -35,7 +35,6 @@ void ReportRegistration(const std::string& name, const MinimizerSummary& summary
   manifest->SetResult("termination", NameOf(summary.termination));
   manifest->SetResult("final_cost", summary.final_cost());
   manifest->SetResult("matching_passes", summary.matching_passes);
-  ReportPose("motion", "motion", summary.T_target_source(), manifest);
   WriteTextFile(run->File("T_target_source.txt"), FormatTransform(summary.T_target_source()));
 }
 

@@ -5,17 +5,18 @@
 #include <string>
 
 #include "apps/run/run.h"
+#include "icpscape/cloud/displacement.h"
 #include "icpscape/minimizer/random_starts.h"
 
 namespace icpscape {
 
-/// Prints and records a length and an angle of a pose: "WHAT: 0.1234 m, 0.5678 deg", and under
-/// NAME_m and NAME_deg.
-void ReportPose(const std::string& what, const std::string& name, const SE3d& T,
-                Manifest* manifest);
+/// Prints and records a length and an angle: "WHAT: 0.1234 m, 0.5678 deg", and under NAME_m and
+/// NAME_deg.
+void ReportDisplacement(const std::string& what, const std::string& name,
+                        const Displacement& displacement, Manifest* manifest);
 
-/// Prints and records how a minimisation of the objective of that name went and what motion it
-/// found; writes iterates.csv and T_target_source.txt.
+/// Prints and records how a minimisation of the objective of that name went; writes iterates.csv
+/// and T_target_source.txt.
 void ReportRegistration(const std::string& name, const MinimizerSummary& summary, Run* run);
 
 /// Prints and records how many random starts succeed, and writes starts.csv.

@@ -19,7 +19,7 @@ struct PairCovarianceOptions : PairOptions {
 
   /// What the estimators assume about the noise.
   CovarianceOptions estimators;
-  /// Lever arm at which rotations count as lengths (m), in `directions`.
+  /// Lever arm from the source's centroid at which rotations count as lengths (m), in `directions`.
   double length_scale_m = 10;
   /// Tolerances of the verdict. Its `minimizer` is not used.
   VerdictOptions verdict;
@@ -40,7 +40,8 @@ struct CovarianceResult {
   /// EstimatedCovariance::reason says which.
   const std::optional<Mat6>& Of(Estimator estimator) const;
 
-  EigenDirections directions;         ///< Of the Gauss-Newton Hessian, the weakest first.
+  /// Of the Gauss-Newton Hessian about the source's centroid, the weakest first.
+  EigenDirections directions;
   std::vector<Judgement> degeneracy;  ///< The published rules, side by side; see degeneracy.h.
   std::string warning;  ///< Where the estimators are known to be wrong for the metric; else empty.
 };
@@ -49,7 +50,7 @@ struct CovarianceResult {
 /// covariances of six estimators (formulas at Estimator), and the directions that the pairs
 /// determine badly.
 ///
-/// Clouds are in metres, each in the frame of its sensor; see Register.
+/// Clouds are in metres, each in its own frame; see Register.
 ///
 /// icpscape-covariance with the same options has the same bits in its tables.
 ///

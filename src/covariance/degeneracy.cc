@@ -2,9 +2,11 @@
 #include "icpscape/covariance/degeneracy.h"
 
 #include <Eigen/Eigenvalues>
+#include <Eigen/LU>
 #include <cmath>
 #include <limits>
 
+#include "icpscape/cloud/displacement.h"
 #include "icpscape/common/error.h"
 #include "icpscape/common/text.h"
 #include "icpscape/objective/pairs.h"
@@ -41,14 +43,16 @@ Mat3 PseudoInverse(const Mat3& symmetric) {
 
 }  // namespace
 
-EigenDirections EigenDirectionsOf(const Mat6& hessian, double length_scale_m) {
+Mat6 HessianAbout(const Vec3& c, double lever_m, const Mat6& hessian) {
+  const Mat6 from = AboutPoint(c, lever_m).inverse();
+  return from.transpose() * hessian * from;
+}
+
+EigenDirections EigenDirectionsOf(const Mat6& hessian, const Vec3& c, double length_scale_m) {
   if (!(length_scale_m > 0) || !std::isfinite(length_scale_m)) {
     throw UsageError("length_scale_m=" + Number(length_scale_m) + ": expected a positive length.");
   }
-  Vec6 scale = Vec6::Ones();
-  scale.head<3>() /= length_scale_m;
-  const Eigen::SelfAdjointEigenSolver<Mat6> solver(scale.asDiagonal() * hessian *
-                                                   scale.asDiagonal());
+  const Eigen::SelfAdjointEigenSolver<Mat6> solver(HessianAbout(c, length_scale_m, hessian));
   return {length_scale_m, solver.eigenvalues(), solver.eigenvectors()};
 }
 
@@ -69,7 +73,7 @@ std::vector<PlaneConstraint> PlaneConstraintsOf(const Objective& objective, cons
 
 std::vector<Judgement> JudgeEigenvalues(const std::string& rule, const std::string& source,
                                         const Mat6& hessian, double threshold) {
-  const EigenDirections eigen = EigenDirectionsOf(hessian, 1);
+  const EigenDirections eigen = EigenDirectionsOf(hessian, Vec3::Zero(), 1);
   std::vector<Judgement> judgements;
   for (int j = 0; j < 6; ++j) {
     const double value = eigen.eigenvalues[j];

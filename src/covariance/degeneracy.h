@@ -10,17 +10,21 @@
 
 namespace icpscape {
 
+/// A Hessian over [omega; v], seen in [L omega; v + omega x c]: M^-T H M^-1 with the M of
+/// AboutPoint.
+Mat6 HessianAbout(const Vec3& c, double lever_m, const Mat6& hessian);
+
 /// Eigenvalues of a Hessian, ascending, and their unit eigenvectors (columns), in the tangent
-/// vectors [L omega; v]: with rotations measured as lengths at a lever arm L, all eigenvalues have
-/// one unit (that of d^2 cost / dm^2; without it they are squares of lengths beside numbers, and
-/// which of them is smallest depends on the unit of length).
+/// vectors [L omega; v + omega x c]: with rotations measured as lengths at a lever arm L from c,
+/// all eigenvalues have one unit (that of d^2 cost / dm^2; without it they are squares of lengths
+/// beside numbers, and which of them is smallest depends on the unit of length).
 struct EigenDirections {
   double length_scale_m = 0;
   Vec6 eigenvalues = Vec6::Zero();
   Mat6 directions = Mat6::Identity();
 };
 /// Throws UsageError unless length_scale_m is positive.
-EigenDirections EigenDirectionsOf(const Mat6& hessian, double length_scale_m);
+EigenDirections EigenDirectionsOf(const Mat6& hessian, const Vec3& c, double length_scale_m);
 
 /// How well a direction is determined, in the words of X-ICP.
 enum class Localizability { kFull, kPartial, kNone };
@@ -50,7 +54,9 @@ std::vector<PlaneConstraint> PlaneConstraintsOf(const Objective& objective,
                                                 const SE3d& T_target_source,
                                                 const Matches& matches);
 
-// The judgements of one rule: six, over the directions that the rule itself looks at.
+// The judgements of one rule: six, over the directions that the rule itself looks at. The rules are
+// published for clouds with the sensor at the origin, and what they say depends on that point: they
+// take the Hessian about the sensor, and v is the sensor's velocity.
 
 /// Zhang, Kaess & Singh 2016: an eigenvalue of H = J^T J below a threshold; H as it comes, in rad
 /// and m. The paper leaves the threshold to experiments. Those in use are constants on sums over
@@ -80,7 +86,7 @@ std::vector<Judgement> JudgeXicp(const Mat6& hessian, const std::vector<PlaneCon
 /// inverse; the authors' code calls all six directions degenerate there.
 std::vector<Judgement> JudgeDcreg(const Mat6& hessian);
 
-/// All rules side by side; X-ICP's where there are pairs for it.
+/// All rules side by side; X-ICP's where there are pairs for it. The Hessian is about the sensor.
 std::vector<Judgement> JudgeDegeneracy(const Mat6& hessian,
                                        const std::vector<PlaneConstraint>& pairs);
 

@@ -2,6 +2,7 @@
 #include "icpscape/covariance/registration_uncertainty.h"
 
 #include "icpscape/common/error.h"
+#include "icpscape/objective/source_centroid.h"
 
 namespace icpscape {
 namespace {
@@ -46,7 +47,8 @@ RegistrationUncertainty RegisterWithUncertainty(const Objective& objective, cons
   }
   const SE3d& T = result.registration.T_target_source();
   result.sums = SumForCovariance(objective, T, options, threads);
-  result.directions = EigenDirectionsOf(result.sums.gauss_newton, length_scale_m);
+  result.directions =
+      EigenDirectionsOf(result.sums.gauss_newton, SourceCentroid(objective), length_scale_m);
   const bool is_determined =
       result.directions.eigenvalues[0] > 1e-12 * result.directions.eigenvalues[5];
   for (const Estimator estimator : AllOf<Estimator>()) {
@@ -58,8 +60,10 @@ RegistrationUncertainty RegisterWithUncertainty(const Objective& objective, cons
     }
     result.covariances.push_back(entry);
   }
-  result.judgements = JudgeDegeneracy(
-      result.sums.gauss_newton, PlaneConstraintsOf(objective, T, objective.Match(T, threads)));
+  const Vec3& sensor = objective.matcher().source().sensor;
+  result.judgements =
+      JudgeDegeneracy(HessianAbout(sensor, 1, result.sums.gauss_newton),
+                      PlaneConstraintsOf(objective, T, objective.Match(T, threads)));
   return result;
 }
 

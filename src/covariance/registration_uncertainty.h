@@ -29,8 +29,8 @@ struct RegistrationUncertainty {
   MinimizerSummary registration;
   CovarianceSums sums;                           ///< At the solution, as all that follows.
   std::vector<EstimatedCovariance> covariances;  ///< In the order of AllOf<Estimator>.
-  EigenDirections directions;                    ///< Of the Gauss-Newton Hessian.
-  std::vector<Judgement> judgements;             ///< Of JudgeDegeneracy.
+  EigenDirections directions;         ///< Of the Gauss-Newton Hessian, about the source's centroid.
+  std::vector<Judgement> judgements;  ///< Of JudgeDegeneracy.
 };
 
 /// Minimises the objective with PreciseMinimizer, and says how sure the solution is. Throws

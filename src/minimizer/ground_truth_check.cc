@@ -1,8 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "icpscape/minimizer/ground_truth_check.h"
 
+#include "icpscape/cloud/displacement.h"
 #include "icpscape/common/error.h"
 #include "icpscape/matching/closest_point_matcher.h"
+#include "icpscape/objective/source_centroid.h"
 
 namespace icpscape {
 
@@ -18,9 +20,10 @@ GroundTruthCheck CheckGroundTruth(const SearchableCloud& source, const Searchabl
     throw ComputationError("ground-truth check: " + check.summary.message);
   }
   check.T_refined = check.summary.T_target_source();
-  const SE3d difference = T_ground_truth.Inverse() * check.T_refined;
-  check.translation_m = difference.t().norm();
-  check.rotation_rad = difference.LogRotation().norm();
+  const Displacement difference =
+      DisplacementAt(SourceCentroid(objective), T_ground_truth.Inverse() * check.T_refined);
+  check.translation_m = difference.m;
+  check.rotation_rad = difference.rad;
   return check;
 }
 

@@ -11,7 +11,7 @@ namespace icpscape {
 /// much is the pose's error, not the metric's.
 struct GroundTruthCheck {
   SE3d T_refined;            ///< Where point-to-plane ends.
-  double translation_m = 0;  ///< Length of the translation between the two poses.
+  double translation_m = 0;  ///< Distance of the source's centroid between the two poses.
   double rotation_rad = 0;
   MinimizerSummary summary;
 };

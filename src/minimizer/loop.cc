@@ -6,32 +6,23 @@
 #include <cmath>
 #include <tuple>
 
+#include "icpscape/cloud/displacement.h"
 #include "icpscape/common/text.h"
+#include "icpscape/minimizer/free_directions.h"
 
 namespace icpscape::internal {
 namespace {
 
-// Smallest and largest over the free directions, rotations in units of 1 / kRotationLength_m.
-std::pair<double, double> ExtremeEigenvalues(const Mat6& hessian, const DofMask& free) {
-  std::vector<int> directions;
-  for (int i = 0; i < 6; ++i) {
-    if (free[static_cast<std::size_t>(i)]) {
-      directions.push_back(i);
-    }
-  }
-  const auto size = static_cast<Eigen::Index>(directions.size());
-  Eigen::MatrixXd scaled(size, size);
-  for (Eigen::Index row = 0; row < size; ++row) {
-    for (Eigen::Index column = 0; column < size; ++column) {
-      const int i = directions[static_cast<std::size_t>(row)];
-      const int j = directions[static_cast<std::size_t>(column)];
-      scaled(row, column) =
-          hessian(i, j) / ((i < 3 ? kRotationLength_m : 1.0) * (j < 3 ? kRotationLength_m : 1.0));
-    }
-  }
+// Smallest and largest over the free directions about the centroid, rotations in units of 1 /
+// kRotationLength_m.
+std::pair<double, double> ExtremeEigenvalues(const Mat6& hessian, const Vec3& centroid,
+                                             const DofMask& free) {
+  const Mat6 about_centroid = AboutPoint(centroid, kRotationLength_m);
+  const Directions motions = about_centroid.inverse() * FreeDirections(free, about_centroid);
+  const Eigen::MatrixXd scaled = motions.transpose() * hessian * motions;
   const Eigen::VectorXd eigenvalues =
       Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd>(scaled, Eigen::EigenvaluesOnly).eigenvalues();
-  return {eigenvalues[0], eigenvalues[size - 1]};
+  return {eigenvalues[0], eigenvalues[motions.cols() - 1]};
 }
 
 // The longest period of a limit cycle that is looked for, and how much closer than a short step a
@@ -39,13 +30,11 @@ std::pair<double, double> ExtremeEigenvalues(const Mat6& hessian, const DofMask&
 constexpr std::size_t kLongestPeriod = 10;
 constexpr double kSamePose = 0.1;
 
-// In metres and radians.
-std::pair<double, double> Length(const SE3d& from, const SE3d& to) {
-  const SE3d step = from.Inverse() * to;
-  return {step.t().norm(), step.LogRotation().norm()};
-}
-
 }  // namespace
+
+Displacement Loop::Between(const SE3d& from, const SE3d& to) const {
+  return DisplacementAt(centroid_, from.Inverse() * to);
+}
 
 Evaluation Loop::Reassociated(const SE3d& T, MatchesByMatcher* keep) {
   ++summary_.matching_passes;
@@ -64,10 +53,11 @@ void Loop::Record(const SE3d& T, const Evaluation& evaluation, const MatchesByMa
   iterate.n = evaluation.n();
   iterate.gradient_norm = evaluation.sums.gradient.norm();
   std::tie(iterate.smallest_eigenvalue, iterate.largest_eigenvalue) =
-      ExtremeEigenvalues(evaluation.sums.Hessian(), options_.free);
+      ExtremeEigenvalues(evaluation.sums.Hessian(), centroid_, options_.free);
   if (!summary_.iterates.empty()) {
-    std::tie(iterate.step_m, iterate.step_rad) =
-        Length(summary_.iterates.back().T_target_source, T);
+    const Displacement step = Between(summary_.iterates.back().T_target_source, T);
+    iterate.step_m = step.m;
+    iterate.step_rad = step.rad;
   }
   iterate.time_s = std::chrono::duration<double>(Clock::now() - start_).count();
   summary_.iterates.push_back(iterate);
@@ -96,7 +86,7 @@ bool Loop::IsShort(double step_m, double step_rad) const {
 }
 
 bool Loop::IsShortStepTo(const SE3d& T) const {
-  const auto [step_m, step_rad] = Length(summary_.iterates.back().T_target_source, T);
+  const auto [step_m, step_rad] = Between(summary_.iterates.back().T_target_source, T);
   return IsShort(step_m, step_rad);
 }
 
@@ -109,7 +99,7 @@ std::size_t Loop::Period() const {
   const std::vector<Iterate>& iterates = summary_.iterates;
   const auto returned = [&](std::size_t last, std::size_t period) {
     const auto [step_m, step_rad] =
-        Length(iterates[last - period].T_target_source, iterates[last].T_target_source);
+        Between(iterates[last - period].T_target_source, iterates[last].T_target_source);
     return IsShort(step_m / kSamePose, step_rad / kSamePose);
   };
   for (std::size_t period = 2; period <= kLongestPeriod && period + 2 < iterates.size(); ++period) {
@@ -150,7 +140,7 @@ MinimizerSummary Loop::EndLimitCycle(std::size_t period) {
   const auto best = std::min_element(
       first, iterates.end(), [](const Iterate& a, const Iterate& b) { return a.rmse < b.rmse; });
   for (auto member = first; member != iterates.end(); ++member) {
-    const auto [m, rad] = Length(best->T_target_source, member->T_target_source);
+    const auto [m, rad] = Between(best->T_target_source, member->T_target_source);
     summary_.cycle_m = std::max(summary_.cycle_m, m);
     summary_.cycle_rad = std::max(summary_.cycle_rad, rad);
   }

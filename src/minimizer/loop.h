@@ -8,7 +8,9 @@
 #include <utility>
 #include <vector>
 
+#include "icpscape/cloud/displacement.h"
 #include "icpscape/minimizer/minimizer.h"
+#include "icpscape/objective/source_centroid.h"
 
 namespace icpscape::internal {
 
@@ -18,7 +20,7 @@ class Loop {
  public:
   /// Both must outlive the loop.
   Loop(const JointObjective& objective, const MinimizerOptions& options)
-      : objective_(objective), options_(options) {}
+      : objective_(objective), options_(options), centroid_(SourceCentroid(objective)) {}
 
   const MinimizerOptions& options() const { return options_; }
   /// Whether someone wants to see the matches.
@@ -58,9 +60,12 @@ class Loop {
 
   void FindEnd(const Evaluation& evaluation, const MatchesByMatcher& matches);
   bool IsShort(double step_m, double step_rad) const;
+  /// Of the source's centroid.
+  Displacement Between(const SE3d& from, const SE3d& to) const;
 
   const JointObjective& objective_;
   const MinimizerOptions& options_;
+  Vec3 centroid_;  // Of the source.
   MinimizerSummary summary_;
   std::optional<std::pair<Termination, std::string>> end_;
   Clock::time_point start_ = Clock::now();

@@ -23,8 +23,9 @@ enum class Reassociation {
   kEveryStep,
 };
 
-/// Rotations are measured in metres at this distance where the eigenvalues of a Hessian are
-/// compared with one another: xi' = [L omega; v], H' = D^-1 H D^-1, D = diag(L, L, L, 1, 1, 1).
+/// Rotations are measured in metres at this distance L from the source's centroid c where the
+/// eigenvalues of a Hessian are compared with one another: xi' = M xi = [L omega; v + omega x c],
+/// H' = M^-T H M^-1.
 inline constexpr double kRotationLength_m = 10;
 
 /// One accepted pose. All values are the objective's at this pose, with the matches of this pose.
@@ -34,11 +35,11 @@ struct Iterate {
   double rmse = 0;
   long n = 0;
   double gradient_norm = 0;
-  /// Of the Gauss-Newton Hessian over the free directions, rotations in units of 1 /
-  /// kRotationLength_m (m^2 per m^2). A smallest one near 0 means a direction that the pairs do not
-  /// determine.
+  /// Of the Gauss-Newton Hessian over the free directions, about the source's centroid and with
+  /// rotations in units of 1 / kRotationLength_m (m^2 per m^2). A smallest one near 0 means a
+  /// direction that the pairs do not determine.
   double smallest_eigenvalue = 0, largest_eigenvalue = 0;
-  double step_m = 0;    ///< Length of the translation since the iterate before.
+  double step_m = 0;    ///< Way of the source's centroid since the iterate before.
   double step_rad = 0;  ///< Angle of the rotation since the iterate before.
   double time_s = 0;    ///< Since the start of Minimize.
 };
@@ -56,8 +57,8 @@ using Observer = std::function<bool(const Observation&)>;
 struct MinimizerOptions {
   Reassociation reassociation = Reassociation::kEveryStep;
   int max_iterations = 50;
-  /// Converged where the next step would be shorter than both. A tenth of a millimetre is far below
-  /// what re-association leaves of the objective's smoothness.
+  /// Converged where the next step would move the source's centroid and turn by less than this. A
+  /// tenth of a millimetre is far below what re-association leaves of the objective's smoothness.
   double min_step_m = 1e-4;
   double min_step_rad = 1e-5;
   /// Ends where the cost changed by less than this share of it from one iterate to the next; 0:
@@ -101,7 +102,7 @@ struct MinimizerSummary {
   Termination termination = Termination::kFailure;
   std::string message;  ///< One sentence.
   int matching_passes = 0;
-  /// kLimitCycle: how far its poses are from the best of them, at most.
+  /// kLimitCycle: how far its poses take the source's centroid from the best of them, at most.
   double cycle_m = 0, cycle_rad = 0;
 
   bool Usable() const { return IsUsable(termination); }

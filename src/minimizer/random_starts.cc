@@ -4,7 +4,9 @@
 #include <mutex>
 #include <random>
 
+#include "icpscape/cloud/displacement.h"
 #include "icpscape/common/parallel.h"
+#include "icpscape/objective/source_centroid.h"
 
 namespace icpscape {
 namespace {
@@ -24,13 +26,15 @@ Vec3 RandomVector(double longest, std::mt19937_64* engine) {
 
 }  // namespace
 
-std::vector<SE3d> RandomStarts(const SE3d& T_reference, const RandomStartOptions& options) {
+std::vector<SE3d> RandomStarts(const SE3d& T_reference, const Vec3& c,
+                               const RandomStartOptions& options) {
   std::mt19937_64 engine(options.seed);
   std::vector<SE3d> starts;
   for (int i = 0; i < options.count; ++i) {
     Vec6 xi;
     xi.head<3>() = RandomVector(options.rotation_rad, &engine);
     xi.tail<3>() = RandomVector(options.translation_m, &engine);
+    xi.tail<3>() -= xi.head<3>().cross(c);
     for (int axis = 0; axis < 6; ++axis) {
       if (!options.minimizer.free[static_cast<std::size_t>(axis)]) {
         xi[axis] = 0;
@@ -44,7 +48,11 @@ std::vector<SE3d> RandomStarts(const SE3d& T_reference, const RandomStartOptions
 std::vector<StartResult> RunRandomStarts(const JointObjective& objective, const SE3d& T_reference,
                                          const RandomStartOptions& options,
                                          const std::function<void(int)>& progress) {
-  const std::vector<SE3d> starts = RandomStarts(T_reference, options);
+  const Vec3 centroid = SourceCentroid(objective);
+  const std::vector<SE3d> starts = RandomStarts(T_reference, centroid, options);
+  const auto from_reference = [&](const SE3d& T) {
+    return DisplacementAt(centroid, T_reference.Inverse() * T);
+  };
   std::vector<StartResult> results(starts.size());
   MinimizerOptions minimizer = options.minimizer;
   minimizer.threads = 1;  // Parallel over starts.
@@ -53,15 +61,15 @@ std::vector<StartResult> RunRandomStarts(const JointObjective& objective, const 
   ParallelFor(starts.size(), options.minimizer.threads, [&](std::size_t i) {
     const MinimizerSummary summary = Minimize(objective, starts[i], minimizer);
     StartResult& result = results[i];
-    const SE3d start = T_reference.Inverse() * starts[i];
-    result.start_m = start.t().norm();
-    result.start_rad = start.LogRotation().norm();
+    const Displacement start = from_reference(starts[i]);
+    result.start_m = start.m;
+    result.start_rad = start.rad;
     result.termination = summary.termination;
     result.end_m = result.end_rad = std::numeric_limits<double>::quiet_NaN();
     if (!summary.iterates.empty()) {
-      const SE3d end = T_reference.Inverse() * summary.T_target_source();
-      result.end_m = end.t().norm();
-      result.end_rad = end.LogRotation().norm();
+      const Displacement end = from_reference(summary.T_target_source());
+      result.end_m = end.m;
+      result.end_rad = end.rad;
       result.iterations = static_cast<int>(summary.iterates.size()) - 1;
     }
     result.success = summary.Usable() && result.end_m < kSuccessM && result.end_rad < kSuccessRad;

@@ -10,7 +10,8 @@
 
 namespace icpscape {
 
-/// A registration succeeds when it ends this close to the reference.
+/// A registration succeeds when it ends this close to the reference, in metres of the source's
+/// centroid.
 inline constexpr double kSuccessM = 0.05;
 inline constexpr double kSuccessRad = 0.25 * M_PI / 180;
 
@@ -23,20 +24,23 @@ struct RandomStartOptions {
 };
 
 struct StartResult {
-  double start_m = 0, start_rad = 0;  ///< Distance of the start from the reference.
-  double end_m = 0, end_rad = 0;      ///< Distance of the result from the reference.
+  /// Distances of the start and of the result from the reference; metres of the source's centroid.
+  double start_m = 0, start_rad = 0;
+  double end_m = 0, end_rad = 0;
   int iterations = 0;
   Termination termination = Termination::kFailure;
   bool success = false;
 };
 
-/// The start poses: T_reference Exp([omega; v]) with directions uniform on the sphere and lengths
-/// uniform up to the limits, without the directions that minimizer.free excludes; the same for the
-/// same seed on every machine.
-std::vector<SE3d> RandomStarts(const SE3d& T_reference, const RandomStartOptions& options);
+/// The start poses: T_reference Exp([omega; v - omega x c]), which turns about the point c of the
+/// source's frame, with directions of omega and v uniform on the sphere and lengths uniform up to
+/// the limits, without the directions that minimizer.free excludes; the same for the same seed on
+/// every machine.
+std::vector<SE3d> RandomStarts(const SE3d& T_reference, const Vec3& c,
+                               const RandomStartOptions& options);
 
-/// Minimises from every start, in parallel over starts; results in the order of RandomStarts.
-/// `progress` (if any) is called with the number done, one call at a time.
+/// Minimises from every start about the source's centroid, in parallel over starts; results in the
+/// order of RandomStarts. `progress` (if any) is called with the number done, one call at a time.
 std::vector<StartResult> RunRandomStarts(const JointObjective& objective, const SE3d& T_reference,
                                          const RandomStartOptions& options,
                                          const std::function<void(int)>& progress = nullptr);

@@ -41,7 +41,7 @@ class Experiment {
     RandomStartOptions start = options.start;
     start.count = options.draws;
     start.seed = static_cast<unsigned>(options.seed);
-    starts_ = RandomStarts(T_truth_, start);
+    starts_ = RandomStarts(T_truth_, Vec3::Zero(), start);
   }
 
   // Draw 0 has the scans of SimulatePair.

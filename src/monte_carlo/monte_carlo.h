@@ -37,8 +37,9 @@ struct MonteCarloOptions {
   std::vector<std::string> metrics = {"point_to_plane"};
   PreparationOptions preparation;
   ObjectiveSetOptions objective;
-  /// One start per draw; count, seed and the minimizer's threads are not used. The minimizer must
-  /// stop at steps far below the errors that are measured: see PreciseMinimizer.
+  /// One start per draw, turned about the lidar; count, seed and the minimizer's threads are not
+  /// used. The minimizer must stop at steps far below the errors that are measured: see
+  /// PreciseMinimizer.
   RandomStartOptions start;
   CovarianceOptions covariance;
   int draws = 100;

@@ -3,20 +3,19 @@
 
 #include <Eigen/Eigenvalues>
 #include <Eigen/LU>
-#include <Eigen/QR>
 #include <Eigen/SVD>
 #include <algorithm>
 #include <limits>
 #include <utility>
 
+#include "icpscape/cloud/displacement.h"
 #include "icpscape/common/text.h"
 #include "icpscape/covariance/covariance.h"
+#include "icpscape/minimizer/free_directions.h"
+#include "icpscape/objective/source_centroid.h"
 
 namespace icpscape {
 namespace {
-
-// Columns are directions [L omega; v] about the centroid.
-using Directions = Eigen::Matrix<double, 6, Eigen::Dynamic>;
 
 // Eigenvalues of H and of B below these shares of the largest are none.
 constexpr double kLeastOfH = 1e-12;
@@ -36,48 +35,17 @@ struct Extent {
   long points = 0;
 
   explicit Extent(const JointObjective& objective) {
-    ForEach(objective, [&](const Vec3& p) {
-      centroid += p;
+    centroid = SourceCentroid(objective);
+    ForEachSourcePoint(objective, [&](const Vec3& p) {
+      radius_m += (p - centroid).squaredNorm();
       ++points;
     });
-    centroid /= static_cast<double>(points);
-    ForEach(objective, [&](const Vec3& p) { radius_m += (p - centroid).squaredNorm(); });
     radius_m = std::sqrt(radius_m / static_cast<double>(points));
     if (radius_m == 0) {
       radius_m = 1;  // Points in one place see no rotation, whatever its lever arm.
     }
   }
-
- private:
-  template <class F>
-  static void ForEach(const JointObjective& objective, const F& f) {
-    for (const Objective& term : objective.objectives()) {
-      const PointCloud& source = term.matcher().source();
-      for (std::size_t i = 0; i < source.size(); ++i) {
-        f(source.Point(i));
-      }
-    }
-  }
 };
-
-// [L omega; v + omega x c] from [omega; v].
-Mat6 ToCentroid(const Extent& extent) {
-  Mat6 to = Mat6::Identity();
-  to.topLeftCorner<3, 3>() *= extent.radius_m;
-  to.bottomLeftCorner<3, 3>() = -Skew<double>(extent.centroid);
-  return to;
-}
-
-Directions FreeDirections(const DofMask& free, const Mat6& to_centroid) {
-  Directions columns(6, std::count(free.begin(), free.end(), true));
-  for (Eigen::Index i = 0, k = 0; i < 6; ++i) {
-    if (free[static_cast<std::size_t>(i)]) {
-      columns.col(k++) = to_centroid.col(i);
-    }
-  }
-  const Eigen::MatrixXd Q = columns.householderQr().householderQ();
-  return Q.leftCols(columns.cols());
-}
 
 double LargestEigenvalue(const Eigen::MatrixXd& symmetric) {
   const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> solver(symmetric, Eigen::EigenvaluesOnly);
@@ -202,7 +170,7 @@ Verdict JudgePose(const JointObjective& objective, const MinimizerSummary& summa
   verdict.pairs = sums.pairs;
   verdict.rows = sums.rows;
   verdict.matched_share = static_cast<double>(sums.pairs) / static_cast<double>(extent.points);
-  verdict.to_centroid = ToCentroid(extent);
+  verdict.to_centroid = AboutPoint(extent.centroid, extent.radius_m);
   const Mat6 from_centroid = verdict.to_centroid.inverse();
   const Directions free = FreeDirections(options.minimizer.free, verdict.to_centroid);
   if (sums.rows < free.cols()) {
@@ -267,8 +235,8 @@ Verdict JudgePose(const JointObjective& objective, const MinimizerSummary& summa
     const Directions motions = from_centroid * kept;
     const Vec6 gradient = objective.Evaluate(T, threads).sums.gradient;
     const Vec6 step =
-        motions * over_kept(sums.gauss_newton).ldlt().solve(motions.transpose() * gradient);
-    verdict.converged = step.head<3>().norm() < options.minimizer.min_step_rad &&
+        kept * over_kept(sums.gauss_newton).ldlt().solve(motions.transpose() * gradient);
+    verdict.converged = step.head<3>().norm() < extent.radius_m * options.minimizer.min_step_rad &&
                         step.tail<3>().norm() < options.minimizer.min_step_m;
   }
   return verdict;

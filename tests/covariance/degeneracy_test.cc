@@ -3,10 +3,12 @@
 
 #include <gtest/gtest.h>
 
+#include <Eigen/LU>
 #include <algorithm>
 #include <cmath>
 #include <limits>
 
+#include "icpscape/cloud/displacement.h"
 #include "icpscape/cloud/normals.h"
 #include "icpscape/common/error.h"
 #include "icpscape/matching/closest_point_matcher.h"
@@ -278,11 +280,31 @@ TEST(Degeneracy, PlanesAreNormalsOrPatches) {
 TEST(Degeneracy, EigenvaluesAreInTheStatedLength) {
   Mat6 hessian = Mat6::Identity();
   hessian.topLeftCorner<3, 3>() *= 4;
-  const EigenDirections at_2_m = EigenDirectionsOf(hessian, 2);
+  const EigenDirections at_2_m = EigenDirectionsOf(hessian, Vec3::Zero(), 2);
   EXPECT_LT((at_2_m.eigenvalues - Vec6::Ones()).norm(), 1e-12);
-  EXPECT_NEAR(EigenDirectionsOf(hessian, 1).eigenvalues[5], 4, 1e-12);
+  EXPECT_NEAR(EigenDirectionsOf(hessian, Vec3::Zero(), 1).eigenvalues[5], 4, 1e-12);
   for (const double length_m : {0.0, -1.0, std::nan(""), std::numeric_limits<double>::infinity()}) {
-    EXPECT_THROW(EigenDirectionsOf(hessian, length_m), UsageError) << length_m;
+    EXPECT_THROW(EigenDirectionsOf(hessian, Vec3::Zero(), length_m), UsageError) << length_m;
+  }
+}
+
+// A room that is seen from elsewhere has the same eigenvalues about its own middle, which they are
+// not about the origin.
+TEST(Degeneracy, EigenvaluesAboutAPointDoNotHangOnTheOrigin) {
+  const Constraints room = Room();
+  Constraints far = room;
+  const Vec3 offset(300, -200, 50);
+  for (PlaneConstraint& c : far) {
+    c.p_source += offset;
+  }
+  const EigenDirections here = EigenDirectionsOf(HessianOf(room), Vec3(1, 2, 0.5), 3);
+  const EigenDirections there = EigenDirectionsOf(HessianOf(far), offset + Vec3(1, 2, 0.5), 3);
+  const EigenDirections elsewhere = EigenDirectionsOf(HessianOf(far), Vec3(1, 2, 0.5), 3);
+  EXPECT_LT((here.eigenvalues - there.eigenvalues).norm(), 1e-9 * here.eigenvalues[5]);
+  EXPECT_GT(elsewhere.eigenvalues[5], 100 * here.eigenvalues[5]);
+  for (int i = 0; i < 6; ++i) {  // A motion d changes the cost by the eigenvalue of its direction.
+    const Vec6 xi = AboutPoint(offset + Vec3(1, 2, 0.5), 3).inverse() * there.directions.col(i);
+    EXPECT_NEAR(xi.dot(HessianOf(far) * xi), here.eigenvalues[i], 1e-7 * here.eigenvalues[5]);
   }
 }
 
@@ -297,7 +319,7 @@ TEST(Degeneracy, AHighwayHoldsLeastAlongItself) {
   const SE3d& T = *pair.T_ground_truth;
   const Matches matches = objective.Match(T, 2);
   const Mat6 hessian = objective.Evaluate(T, matches, 2).sums.Hessian();
-  const EigenDirections eigen = EigenDirectionsOf(hessian, 10);
+  const EigenDirections eigen = EigenDirectionsOf(hessian, Vec3::Zero(), 10);
   EXPECT_GT(std::abs(eigen.directions(kX, 0)), 0.95);
   EXPECT_GT(eigen.eigenvalues[1], 2 * eigen.eigenvalues[0]);
   const Constraints constraints = PlaneConstraintsOf(objective, T, matches);

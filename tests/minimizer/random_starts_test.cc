@@ -41,34 +41,37 @@ void ExpectUniformInDirectionAndLength(const std::vector<Vec3>& vectors, double 
   }
 }
 
-// The start is T_reference Exp(xi): the reference is turned and far away, so that the order
-// matters.
+const Vec3 kAbout(4, -7, 2);
+
+// The point about which the starts turn is where omega and v are uniform: there T_reference^-1 T is
+// Exp([omega; v]). The reference is turned and far away, so that the order matters.
 TEST(RandomStarts, AreUniformAboutTheReferenceAndRepeat) {
   RandomStartOptions options;
   options.count = 4000;
   options.translation_m = 0.5;
   options.rotation_rad = 0.05;
   const SE3d reference = SE3d::Exp((Vec6() << 0.2, -0.4, 1, 30, -20, 5).finished());
-  const std::vector<SE3d> starts = RandomStarts(reference, options);
+  const std::vector<SE3d> starts = RandomStarts(reference, kAbout, options);
   ASSERT_EQ(starts.size(), 4000U);
   std::vector<Vec3> rotations, translations;
   for (const SE3d& start : starts) {
-    const Vec6 xi = (reference.Inverse() * start).Log();
+    const SE3d to(Mat3::Identity(), kAbout);
+    const Vec6 xi = (to.Inverse() * reference.Inverse() * start * to).Log();
     rotations.push_back(xi.head<3>());
     translations.push_back(xi.tail<3>());
   }
   ExpectUniformInDirectionAndLength(rotations, 0.05);
   ExpectUniformInDirectionAndLength(translations, 0.5);
-  EXPECT_EQ(starts[7].Matrix(), RandomStarts(reference, options)[7].Matrix());
+  EXPECT_EQ(starts[7].Matrix(), RandomStarts(reference, kAbout, options)[7].Matrix());
   options.seed = 2;
-  EXPECT_NE(starts[7].Matrix(), RandomStarts(reference, options)[7].Matrix());
+  EXPECT_NE(starts[7].Matrix(), RandomStarts(reference, kAbout, options)[7].Matrix());
 }
 
 TEST(RandomStarts, StayWithinTheFreeDirections) {
   RandomStartOptions options;
   options.minimizer.free = kPlanarDof;
   const SE3d reference = kMotion;
-  for (const SE3d& start : RandomStarts(reference, options)) {
+  for (const SE3d& start : RandomStarts(reference, kAbout, options)) {
     const Vec6 xi = (reference.Inverse() * start).Log();
     EXPECT_NEAR(xi.head<2>().norm() + std::abs(xi[5]), 0, 1e-12);
     EXPECT_GT(xi.segment<3>(2).norm(), 0);
@@ -89,7 +92,7 @@ TEST(RandomStarts, ReportWhatBecameOfEachStart) {
   const std::vector<StartResult> results =
       RunRandomStarts(objective, reference, options, [&](int done) { progress.push_back(done); });
   EXPECT_EQ(progress, (std::vector<int>{1, 2, 3, 4}));
-  const std::vector<SE3d> starts = RandomStarts(reference, options);
+  const std::vector<SE3d> starts = RandomStarts(reference, CentroidOf(Room().source), options);
   ASSERT_EQ(results.size(), starts.size());
   int far = 0;
   for (std::size_t i = 0; i < starts.size(); ++i) {

@@ -4,6 +4,7 @@
 
 #include <gtest/gtest.h>
 
+#include "icpscape/cloud/displacement.h"
 #include "icpscape/minimizer/minimizer.h"
 #include "tests/support/named.h"
 #include "tests/support/scenes.h"
@@ -18,7 +19,11 @@ inline const MovedRoom& RoomOfKMotion() {
   return room;
 }
 
-inline double DistanceM(const SE3d& a, const SE3d& b) { return (a.Inverse() * b).t().norm(); }
+/// How far apart the two poses take the middle of the source.
+inline double DistanceM(const SE3d& a, const SE3d& b) {
+  static const Vec3 middle = CentroidOf(RoomOfKMotion().source);
+  return (a * middle - b * middle).norm();
+}
 inline double AngleRad(const SE3d& a, const SE3d& b) {
   return (a.Inverse() * b).LogRotation().norm();
 }

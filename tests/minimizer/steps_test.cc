@@ -36,7 +36,7 @@ TEST(Steps, AreThoseOfGaussNewtonByHand) {
       poses.push_back(T);
       const NormalEquations sums = objective.Evaluate(T, 1).sums;
       const SE3d step = SE3d::Exp(-sums.Hessian().ldlt().solve(sums.gradient));
-      if (step.t().norm() < 1e-4 && step.LogRotation().norm() < 1e-5) {
+      if (DistanceM(step, SE3d()) < 1e-4 && step.LogRotation().norm() < 1e-5) {
         break;
       }
       T = T * step;
@@ -49,6 +49,34 @@ TEST(Steps, AreThoseOfGaussNewtonByHand) {
       EXPECT_LT(DistanceM(poses[i], summary.iterates[i].T_target_source), 1e-6) << metric << i;
     }
   }
+}
+
+// The same rooms, told in frames whose origins are far away and turned.
+TEST_P(StepsInBothModes, DoNotHangOnTheOrigin) {
+  const SE3d T_far_source = SE3d::Exp((Vec6() << 0.4, -0.2, 1.1, 300, -150, 40).finished());
+  const SE3d T_far_target = SE3d::Exp((Vec6() << -0.3, 0.5, -2, -90, 220, -60).finished());
+  const PointCloud far_source = Room().source.Transformed(T_far_source);
+  const PointCloud far_target = Room().target.Transformed(T_far_target);
+  const ClosestPointMatcher matcher(Room().source, Room().target);
+  const ClosestPointMatcher far_matcher(far_source, far_target);
+  const MinimizerSummary summary =
+      Minimize(Objective("point_to_plane", matcher), SE3d(), Options());
+  const MinimizerSummary far = Minimize(Objective("point_to_plane", far_matcher),
+                                        T_far_target * T_far_source.Inverse(), Options());
+  EXPECT_EQ(far.termination, summary.termination);
+  ASSERT_EQ(far.iterates.size(), summary.iterates.size());
+  for (std::size_t i = 0; i < far.iterates.size(); ++i) {
+    const Iterate& here = summary.iterates[i];
+    const Iterate& there = far.iterates[i];
+    EXPECT_NEAR(there.step_m, here.step_m, 1e-4) << i;
+    EXPECT_NEAR(there.step_rad, here.step_rad, 1e-5) << i;
+    EXPECT_NEAR(there.smallest_eigenvalue, here.smallest_eigenvalue,
+                1e-2 * here.smallest_eigenvalue);
+    EXPECT_NEAR(there.largest_eigenvalue, here.largest_eigenvalue, 1e-2 * here.largest_eigenvalue);
+  }
+  EXPECT_LT(DistanceM(T_far_target.Inverse() * far.T_target_source() * T_far_source,
+                      summary.T_target_source()),
+            1e-4);
 }
 
 // Besl and McKay: point-to-point ICP never raises its cost.
@@ -100,7 +128,7 @@ TEST_P(StepsInBothModes, AreShortenedUntilTheyDescend) {
 // that. It is short because longer ones were refused, which is no convergence.
 TEST_P(StepsInBothModes, ThatAreShortAfterRefusalsAreNoConvergence) {
   MinimizerOptions options = Options();
-  options.min_step_rad = 0.005;
+  options.min_step_m = options.min_step_rad = 0.005;
   const MinimizerSummary summary = Turntable(1.5).Minimized(0.01, options);
   EXPECT_EQ(summary.termination, Termination::kNoDescent) << summary.message;
   EXPECT_NEAR(Turntable::AngleAt(summary.T_target_source()), 0.01, 0.005);

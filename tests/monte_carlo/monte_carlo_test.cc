@@ -60,8 +60,9 @@ TEST(MonteCarlo, FirstDrawIsThePairOfTheSeed) {
                          options.objective);
   RandomStartOptions start = options.start;
   start.count = 1;
-  const MinimizerSummary summary = Minimize(
-      set.objectives()[0], RandomStarts(*pair.T_ground_truth, start)[0], PreciseMinimizer());
+  const MinimizerSummary summary =
+      Minimize(set.objectives()[0], RandomStarts(*pair.T_ground_truth, Vec3::Zero(), start)[0],
+               PreciseMinimizer());
   const Vec6 error = (pair.T_ground_truth->Inverse() * summary.T_target_source()).Log();
   EXPECT_LT((draw.error - error).norm(), 1e-12);
 }
@@ -87,7 +88,7 @@ TEST(MonteCarlo, DrawsAreTheChainOfTheirParts) {
   RandomStartOptions start = options.start;
   start.count = 3;
   start.seed = 3;
-  const std::vector<SE3d> starts = RandomStarts(scene.T_target_source(), start);
+  const std::vector<SE3d> starts = RandomStarts(scene.T_target_source(), Vec3::Zero(), start);
   for (const Sensor sensor : {Sensor::kFixed, Sensor::kRedrawn}) {
     options.sensor = sensor;
     const auto results = RunMonteCarlo(options);
