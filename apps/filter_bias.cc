@@ -87,8 +87,9 @@ void FilterBias() {
   ScanPair pair = ReadPair(run.manifest());
   const PreparedPair scans = PrepareFromFlags(MetricsFromFlags(), &pair, run.manifest());
   Table table({"sweep", "unit", "metric", "error_of_estimate", "argmin_error", "source_points"});
-  for (const ErrorAxis& axis : {AlongPath(*pair.T_ground_truth, FLAGS_translation_range_m),
-                                Yaw(*pair.T_ground_truth, FLAGS_yaw_range_deg)}) {
+  const Vec3& sensor = scans.source.cloud().sensor;
+  for (const ErrorAxis& axis : {AlongPath(*pair.T_ground_truth, sensor, FLAGS_translation_range_m),
+                                Yaw(*pair.T_ground_truth, sensor, FLAGS_yaw_range_deg)}) {
     ReportSweep(SweepEstimate(scans, axis, &table), run.manifest());
   }
   if (pair.T_predicted && !scans.source.cloud().label.empty()) {

@@ -84,7 +84,7 @@ void Landscape() {
   const PreparedPair scans = PrepareFromFlags(metrics, &pair, manifest);
   const SE3d T_reference = ReferencePose(pair, scans, manifest);
   const ObjectiveSet set(FilterFromFlags(scans, pair, manifest), metrics, ObjectiveSetFromFlags());
-  const Path path(T_initial, T_reference, PathKindFromFlags());
+  const Path path(T_initial, T_reference, PathKindFromFlags(), scans.source.cloud().sensor);
   std::vector<Curve> curves;
   {
     Progress progress("poses", options.samples);

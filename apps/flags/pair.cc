@@ -10,6 +10,7 @@
 #include "apps/flags/lidar.h"
 #include "apps/flags/objective.h"
 #include "apps/flags/preparation.h"
+#include "apps/flags/sensor.h"
 #include "apps/flags/sequence.h"
 #include "apps/run/flag.h"
 #include "icpscape/common/error.h"
@@ -106,6 +107,7 @@ void CheckPairFlags(const std::vector<std::string>& metrics, bool needs_ground_t
     if (FLAGS_source.empty() || FLAGS_target.empty()) {
       throw UsageError("expected --source=FILE and --target=FILE together.");
     }
+    SensorFromFlags();
   } else {
     if (!SequenceIsGiven()) {
       throw UsageError(
@@ -136,7 +138,8 @@ ScanPair ReadPair(Manifest* manifest) {
   const auto read = [&](const char* role, const Scan& scan) { return Read(role, scan, manifest); };
   ScanPair pair;
   if (FromFiles()) {
-    const ScanSequence files = OpenTwoScans(FLAGS_source, FLAGS_target);
+    ScanSequence files = OpenTwoScans(FLAGS_source, FLAGS_target);
+    PlaceSensors(&files);
     pair = files.Pair(1, 0, read);
     pair.title = files.title;
     if (!GroundTruthFile().empty()) {

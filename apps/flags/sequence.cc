@@ -4,6 +4,7 @@
 #include <gflags/gflags.h>
 
 #include "apps/flags/lidar.h"
+#include "apps/flags/sensor.h"
 #include "apps/run/flag.h"
 #include "apps/run/run_flags.h"
 #include "icpscape/common/error.h"
@@ -54,12 +55,15 @@ void CheckSequenceFlags() {
   RequireFlag(FLAGS_ground_truth.empty() || !FLAGS_scans.empty(), "ground_truth",
               FLAGS_ground_truth, "--scans with it: scenes and KITTI's sequences have their poses");
   if (SceneIsGiven()) {
+    RequireFlag(!SensorFromFlags(), "scene", FLAGS_scene,
+                "no --sensor_origin with it: a simulated sensor is at 0,0,0");
     if (FLAGS_scene != kTown) {
       CheckSceneName(FLAGS_scene);
     }
     LidarFromFlags();
     SeedFromFlags();
   }
+  SensorFromFlags();
 }
 
 ScanSequence SequenceFromFlags(Manifest* manifest) {
@@ -81,6 +85,7 @@ ScanSequence SequenceFromFlags(Manifest* manifest) {
   for (const std::filesystem::path& input : sequence.inputs) {
     manifest->AddInput(input);
   }
+  PlaceSensors(&sequence);
   return sequence;
 }
 

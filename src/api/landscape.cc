@@ -19,8 +19,8 @@ LandscapeResult Landscape(PointCloud source, PointCloud target, const SE3d& T_re
   CurveOptions curve = options.curve;
   curve.threads = options.threads;
   curve.Check();
+  const Path path(options.T_initial, T_reference, options.path, source.sensor);
   const ObjectiveSet set = ObjectivesOf(std::move(source), std::move(target), options);
-  const Path path(options.T_initial, T_reference, options.path);
   return {EvaluateCurves(set.objectives(), path, curve), path};
 }
 

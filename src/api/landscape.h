@@ -34,8 +34,9 @@ struct LandscapeResult {
 /// with eps as the paper prints it (sum |r|^2 for points, planes and symmetric metrics) and n the
 /// number of pairs; CurvePoint has the cost that Register minimises, and slopes d rmse / du.
 ///
-/// T_reference is the motion that is believed to be true: p_target = T_reference * p_source.
-/// Clouds are in metres, each in the frame of its sensor; see Register.
+/// The path is that of PointCloud::sensor of the source. T_reference is the motion that is believed
+/// to be true: p_target = T_reference * p_source. Clouds are in metres, each in its own frame; see
+/// Register.
 ///
 /// icpscape-landscape with the same options has the same bits in curves.csv.
 ///

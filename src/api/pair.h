@@ -30,7 +30,8 @@ struct PairOptions {
 
 /// The objectives of the metrics over two clouds, which are checked and prepared; what the three
 /// calls begin with. Points that no registration can use are dropped: those that are not finite or
-/// beyond 1000 km, and those at the origin. Normals are estimated; ones in the clouds are replaced.
+/// beyond 1000 km, and those at the origin. Normals are estimated and look to PointCloud::sensor;
+/// ones in the clouds are replaced.
 ///
 /// Throws UsageError for options out of range, InputError where an array of a cloud has another
 /// length than x, or where edge and planar points are asked for and scan lines cannot be found, and

@@ -50,9 +50,9 @@ struct RegisterResult {
 /// over the pairs (p_i, q_i) that belong to T, with r the residual of the metric and rho the loss.
 /// Pairs are found anew after each step of Ceres' trust region.
 ///
-/// Clouds are in metres, each in the frame of its sensor, with the sensor at the origin. A metric
-/// of planes or normals estimates normals from 20 neighbours; those of edges and planar points need
-/// scan lines: PointCloud::ring, or scans whose rings can be recovered.
+/// Clouds are in metres, each in its own frame, with the sensor at PointCloud::sensor (the origin
+/// by default). A metric of planes or normals estimates normals from 20 neighbours; those of edges
+/// and planar points need scan lines: PointCloud::ring, or scans whose rings can be recovered.
 ///
 /// icpscape-register with the same options finds the same bits.
 ///

@@ -68,7 +68,7 @@ std::size_t EstimateNormals(const NeighborSearch& search, const NeighborhoodOpti
                            }
                            const auto i = static_cast<std::size_t>(order[k]);
                            Vec3 n = axes.Smallest(k);
-                           if (n.dot(cloud->Point(i)) > 0) {
+                           if (n.dot(cloud->Point(i) - cloud->sensor) > 0) {
                              n = -n;
                            }
                            nx[i] = static_cast<float>(n.x());

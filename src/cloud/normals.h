@@ -25,9 +25,9 @@ std::vector<Eigen::Matrix3d> EstimateCovariances(const PointCloud& cloud,
                                                  const NeighborhoodOptions& options, int threads);
 
 /// Sets the cloud's normals: the eigenvector of the covariance's smallest eigenvalue, turned
-/// towards the sensor at the origin (n . p <= 0). Where a neighbourhood has fewer than three
-/// points, or its points all lie on one line, there is no normal and (0, 0, 0) is stored. Returns
-/// the number of points without a normal.
+/// towards the sensor s = PointCloud::sensor (n . (p - s) <= 0). Where a neighbourhood has fewer
+/// than three points, or its points all lie on one line, there is no normal and (0, 0, 0) is
+/// stored. Returns the number of points without a normal.
 std::size_t EstimateNormals(const NeighborhoodOptions& options, int threads, PointCloud* cloud);
 
 /// The same, with a search over the cloud's points that was built before.

@@ -14,9 +14,10 @@ constexpr double kTurn = 2 * M_PI;
 constexpr double kLongestStepBack = M_PI / 9;  // 20 degrees.
 constexpr int kMostRings = 128;                // No spinning lidar has more.
 
-// Counter-clockwise from the x axis, [0, 2 pi).
+// About the sensor, counter-clockwise from the x axis, [0, 2 pi).
 double Azimuth(const PointCloud& cloud, std::size_t i) {
-  const double angle = std::atan2(cloud.y[i], cloud.x[i]);
+  const double angle = std::atan2(static_cast<float>(cloud.y[i] - cloud.sensor.y()),
+                                  static_cast<float>(cloud.x[i] - cloud.sensor.x()));
   return angle < 0 ? angle + kTurn : angle;
 }
 

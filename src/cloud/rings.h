@@ -13,10 +13,10 @@ namespace icpscape {
 /// keeps them.
 ///
 /// KITTI's HDL-64 files carry no ring number, but their points come ring by ring, the uppermost
-/// first, and within a ring by azimuth atan2(y, x), counter-clockwise from the x axis: a ring
-/// begins where the azimuth leaves the fourth quadrant for the first, or else falls back by more
-/// than 20 degrees. Smaller steps back are left by de-skewing (up to 6 degrees in sequence 00) and
-/// stay in the ring, across the seam at the x axis too.
+/// first, and within a ring by azimuth atan2(y, x) about PointCloud::sensor, counter-clockwise from
+/// the x axis: a ring begins where the azimuth leaves the fourth quadrant for the first, or else
+/// falls back by more than 20 degrees. Smaller steps back are left by de-skewing (up to 6 degrees
+/// in sequence 00) and stay in the ring, across the seam at the x axis too.
 ///
 /// Limits: the cloud must be in file order (any subset in that order will do). A ring without a
 /// single point cannot be seen, and the rings below it are numbered one too low. Where a ring's

@@ -53,12 +53,12 @@ double Formula(SmoothnessFormula formula, const Vec3& sum, double range_sum, std
 class Sums {
  public:
   Sums(const PointCloud& cloud, std::size_t i)
-      : cloud_(cloud), point_(cloud.Point(i)), range_(point_.norm()) {}
+      : cloud_(cloud), point_(cloud.Point(i)), range_(Range(point_)) {}
 
   void Add(std::int32_t j) {
     const Vec3 other = cloud_.Point(static_cast<std::size_t>(j));
     sum_ += point_ - other;
-    range_sum_ += range_ - other.norm();
+    range_sum_ += range_ - Range(other);
     ++count_;
   }
   double Smoothness(SmoothnessFormula formula) const {
@@ -66,6 +66,8 @@ class Sums {
   }
 
  private:
+  double Range(const Vec3& point) const { return (point - cloud_.sensor).norm(); }
+
   const PointCloud& cloud_;
   Vec3 point_;
   double range_;

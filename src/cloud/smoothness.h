@@ -21,7 +21,8 @@ struct Names<SmoothnessNeighborhood> {
   static constexpr const char* kNames[] = {"ring", "k_nearest", "radius"};
 };
 
-/// How the surrounding points become one number s_i; small on planes, large on edges.
+/// How the surrounding points become one number s_i; small on planes, large on edges. |p| is the
+/// range, the distance from PointCloud::sensor.
 enum class SmoothnessFormula {
   /// s_i = |sum_j (p_i - p_j)| / (card(S_i) |p_i|), no unit [paper sec. 2.4; Zhang & Singh 2014].
   kPrinted,

@@ -19,7 +19,8 @@ struct CovarianceOptions {
   /// Edge of the cubes of the target frame whose scores are summed (clustered sandwich).
   double cluster_m = 1;
   /// Half the distance over which the rematched Hessian is differenced: a translation by this much,
-  /// or a rotation that moves points at 10 m by it. Long enough for pairs to change.
+  /// or a rotation about the sensor that moves points at 10 m by it. Long enough for pairs to
+  /// change.
   double rematching_step_m = 0.02;
 
   /// Throws UsageError naming the value that is out of range.

@@ -25,9 +25,10 @@ struct OverJets<Metric<Scalar>> {
 };
 
 // Points move along the ray of their side as its range grows; all else is constant.
-CorrespondenceOf<Jet> WithRanges(const Correspondence& pair, unsigned needs) {
-  const Vec3 source_ray = pair.p_source.normalized();
-  const Vec3 target_ray = pair.q_target.normalized();
+CorrespondenceOf<Jet> WithRanges(const Correspondence& pair, unsigned needs,
+                                 const Sensors& sensors) {
+  const Vec3 source_ray = (pair.p_source - sensors.source).normalized();
+  const Vec3 target_ray = (pair.q_target - sensors.target).normalized();
   return MapQuantities<Jet>(pair, needs, [&](auto row, const auto& value) {
     using Row = decltype(row);
     using Kind = typename Row::Kind;
@@ -45,13 +46,13 @@ CorrespondenceOf<Jet> WithRanges(const Correspondence& pair, unsigned needs) {
 
 template <class Metric>
 PairDerivatives Differentiate(const Correspondence& pair, const SE3d& T,
-                              const ceres::LossFunction* loss) {
+                              const ceres::LossFunction* loss, const Sensors& sensors) {
   Vec<Jet, 6> xi;
   for (int i = 0; i < 6; ++i) {
     xi[i] = Jet(0.0, i);
   }
   const SE3<Jet> T_moved = T.cast<Jet>() * SE3<Jet>::Exp(xi);
-  const auto metric = OverJets<Metric>::Type::From(WithRanges(pair, Metric::kNeeds));
+  const auto metric = OverJets<Metric>::Type::From(WithRanges(pair, Metric::kNeeds, sensors));
   const Vec<Jet, Metric::kDim> r = metric.Residual(T_moved);
   const Mat<Jet, Metric::kDim, 6> J = metric.Jacobian(T_moved);
   const Jet squared = r.squaredNorm();

@@ -11,11 +11,17 @@ class LossFunction;
 
 namespace icpscape {
 
+/// Where the sensors were, each in the frame of its cloud.
+struct Sensors {
+  Vec3 source = Vec3::Zero();
+  Vec3 target = Vec3::Zero();
+};
+
 /// One pair's gradient g = rho' J^T r, and how it depends on the pose and on what was measured.
 ///
 /// Measured are the two ranges: p_source moves along its ray by d_p, and q_target along its own by
-/// d_q (a fitted line or patch moves with its closest point). Sensors are at the origins of their
-/// frames. Normals and directions of fits are constants: how they follow the ranges is left out.
+/// d_q (a fitted line or patch moves with its closest point). Normals and directions
+/// of fits are constants: how they follow the ranges is left out.
 struct PairDerivatives {
   Vec6 gradient;         ///< d cost / d xi, T <- T Exp(xi).
   Mat6 gauss_newton;     ///< rho' J^T J
@@ -29,7 +35,8 @@ struct PairDerivatives {
 /// derivative (edge_to_line_distance on the line) they are taken for constant.
 using PairDerivativesFunction = PairDerivatives (*)(const Correspondence& pair,
                                                     const SE3d& T_target_source,
-                                                    const ceres::LossFunction* loss);
+                                                    const ceres::LossFunction* loss,
+                                                    const Sensors& sensors);
 
 PairDerivativesFunction PairDerivativesOf(const RegisteredMetric& metric);
 

@@ -28,13 +28,14 @@ std::vector<char> KeepOutside(const PointCloud& cloud, const Vec3& center, doubl
 
 KeptPoints ArtificialBlindSpots(const PointCloud& source, const PointCloud& target,
                                 double radius_m) {
-  return {KeepOutside(source, Vec3::Zero(), radius_m), KeepOutside(target, Vec3::Zero(), radius_m)};
+  return {KeepOutside(source, source.sensor, radius_m),
+          KeepOutside(target, target.sensor, radius_m)};
 }
 
 KeptPoints EgoBlindSpotFilter(const PointCloud& source, const PointCloud& target,
                               const SE3d& T_target_source_estimate, double radius_m) {
-  return {KeepOutside(source, T_target_source_estimate.Inverse().t(), radius_m),
-          KeepOutside(target, T_target_source_estimate.t(), radius_m)};
+  return {KeepOutside(source, T_target_source_estimate.Inverse() * target.sensor, radius_m),
+          KeepOutside(target, T_target_source_estimate * source.sensor, radius_m)};
 }
 
 }  // namespace icpscape

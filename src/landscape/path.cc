@@ -25,9 +25,13 @@ constexpr double kShortest = 1e-9;
 
 }  // namespace
 
-Path::Path(const SE3d& T_0, const SE3d& T_1, PathKind kind)
-    : kind_(kind), T_0_(T_0), T_1_(T_1), remainder_(Vec6::Zero()) {
-  const SE3d motion = T_0.Inverse() * T_1;
+Path::Path(const SE3d& T_0, const SE3d& T_1, PathKind kind, const Vec3& sensor)
+    : kind_(kind),
+      T_source_sensor_(Mat3::Identity(), sensor),
+      T_0_(T_0 * T_source_sensor_),
+      T_1_(T_1 * T_source_sensor_),
+      remainder_(Vec6::Zero()) {
+  const SE3d motion = T_0_.Inverse() * T_1_;
   if (motion.t().norm() < kShortest && motion.LogRotation().norm() < kShortest) {
     throw ComputationError(
         "the path has no length, so that u has no meaning; expected a start other than the "
@@ -39,7 +43,7 @@ Path::Path(const SE3d& T_0, const SE3d& T_1, PathKind kind)
   }
 }
 
-SE3d Path::Pose(double u) const {
+SE3d Path::PoseOfSensor(double u) const {
   switch (kind_) {
     case PathKind::kGeodesic:
       return T_0_ * SE3d::Exp(u * twist_);
@@ -57,12 +61,12 @@ Vec6 Path::BodyTwist(double u) const {
   Vec6 xi = twist_;
   if (kind_ == PathKind::kLerpSlerp) {
     // omega is constant; the translation's velocity is constant in the target frame.
-    xi.tail<3>() = Pose(u).R().transpose() * (T_1_.t() - T_0_.t());
+    xi.tail<3>() = PoseOfSensor(u).R().transpose() * (T_1_.t() - T_0_.t());
   } else if (kind_ == PathKind::kBicycle) {
     // The car's twist as felt behind the remainder, and the remainder's own.
     xi = SE3d::Exp(-u * remainder_).Adjoint() * twist_ + remainder_;
   }
-  return xi;
+  return T_source_sensor_.Adjoint() * xi;
 }
 
 }  // namespace icpscape

@@ -12,7 +12,8 @@ PathProjection ProjectOntoPath(const Path& path, const SE3d& T, double u_min, do
   constexpr int kZooms = 10;  // Each to a fiftieth: 50^-10 is below rounding.
   const auto at = [&](double u) {
     const SE3d T_u = path.Pose(u);
-    return PathProjection{u, (T.t() - T_u.t()).norm(), (T_u.Inverse() * T).LogRotation().norm()};
+    return PathProjection{u, (path.PlaceOfSensor(T) - path.PlaceOfSensor(T_u)).norm(),
+                          (T_u.Inverse() * T).LogRotation().norm()};
   };
   const auto distance = [&](const PathProjection& p) {
     return std::hypot(p.off_path_m, rotation_length_m * p.off_path_rad);

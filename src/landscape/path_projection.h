@@ -10,7 +10,7 @@ namespace icpscape {
 /// usually lie beside the path.
 struct PathProjection {
   double u = 0;             ///< Of the nearest pose T_u.
-  double off_path_m = 0;    ///< |t - t_u|.
+  double off_path_m = 0;    ///< |t - t_u|, t being the place of the sensor; see Path.
   double off_path_rad = 0;  ///< angle(R_u^T R).
 };
 

@@ -12,7 +12,7 @@ namespace {
 PointCloud Within(double radius_m, const PointCloud& scan) {
   std::vector<char> keep(scan.size());
   for (std::size_t i = 0; i < scan.size(); ++i) {
-    keep[i] = scan.Point(i).squaredNorm() <= radius_m * radius_m ? 1 : 0;
+    keep[i] = (scan.Point(i) - scan.sensor).squaredNorm() <= radius_m * radius_m ? 1 : 0;
   }
   return scan.Select(keep);
 }
@@ -29,8 +29,9 @@ LocalMap::LocalMap(const LocalMapOptions& options, bool points, unsigned needs)
       planar_(options.voxel_m) {}
 
 void LocalMap::Insert(const PreparedScan& scan, const SE3d& T_world_lidar, int scan_number) {
+  sensor_ = scan.cloud().sensor;
   const auto insert = [&](const PointCloud& cloud, VoxelMap* map) {
-    map->RemoveBeyond(T_world_lidar.t(), options_.radius_m);
+    map->RemoveBeyond(T_world_lidar * sensor_, options_.radius_m);
     if (options_.scans > 0) {
       map->RemoveBefore(scan_number - options_.scans + 1);
     }
@@ -49,15 +50,19 @@ void LocalMap::Insert(const PreparedScan& scan, const SE3d& T_world_lidar, int s
 
 MetricClouds LocalMap::ViewFrom(const SE3d& T_world_frame, int threads) const {
   MetricClouds view;
-  const SE3d T_frame_world = T_world_frame.Inverse();
+  const auto seen = [&](const VoxelMap& map) {
+    PointCloud cloud = map.Cloud(T_world_frame.Inverse());
+    cloud.sensor = sensor_;
+    return cloud;
+  };
   if (needs_points_) {
-    view.points.emplace(points_.Cloud(T_frame_world), threads);
+    view.points.emplace(seen(points_), threads);
   }
   if (needs_edges_) {
-    view.edges.emplace(edges_.Cloud(T_frame_world), threads);
+    view.edges.emplace(seen(edges_), threads);
   }
   if (needs_planar_) {
-    view.planar.emplace(planar_.Cloud(T_frame_world), threads);
+    view.planar.emplace(seen(planar_), threads);
   }
   return view;
 }

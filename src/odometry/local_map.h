@@ -34,6 +34,7 @@ class LocalMap {
   LocalMapOptions options_;
   bool needs_points_, needs_edges_, needs_planar_;
   VoxelMap points_, edges_, planar_;
+  Vec3 sensor_ = Vec3::Zero();  // In the lidar's frame, the same for all scans.
 };
 
 }  // namespace icpscape

@@ -20,21 +20,23 @@ double Mean(const std::vector<double>& values) {
 
 }  // namespace
 
-ErrorAxis AlongPath(const SE3d& T_target_source, double range_m) {
-  const double length_m = T_target_source.t().norm();
+ErrorAxis AlongPath(const SE3d& T_target_source, const Vec3& sensor, double range_m) {
+  const double length_m = (T_target_source * sensor - sensor).norm();
   if (length_m < 1e-3) {
     throw UsageError("motion of " + Number(length_m) +
                      " m: expected at least 1 mm to sweep along it.");
   }
-  const Path path(SE3d(), T_target_source, PathKind::kLerpSlerp);
+  const Path path(SE3d(), T_target_source, PathKind::kLerpSlerp, sensor);
   return {"along_path", "m", range_m,
           [path, length_m](double e) { return path.Pose(1 + e / length_m); }};
 }
 
-ErrorAxis Yaw(const SE3d& T_target_source, double range_deg) {
-  return {"yaw", "deg", range_deg, [T_target_source](double e) {
-            return T_target_source *
-                   SE3d::Exp((Vec6() << 0, 0, e * M_PI / 180, 0, 0, 0).finished());
+ErrorAxis Yaw(const SE3d& T_target_source, const Vec3& sensor, double range_deg) {
+  const SE3d T_source_sensor(Mat3::Identity(), sensor);
+  return {"yaw", "deg", range_deg, [T_target_source, T_source_sensor](double e) {
+            return T_target_source * T_source_sensor *
+                   SE3d::Exp((Vec6() << 0, 0, e * M_PI / 180, 0, 0, 0).finished()) *
+                   T_source_sensor.Inverse();
           }};
 }
 

@@ -19,12 +19,13 @@ struct ErrorAxis {
   std::function<SE3d(double e)> pose;
 };
 
-/// e metres further along the straight line of the motion and its rotation: T(u) of the paper's
-/// path with u = 1 + e / |t|. Throws UsageError where the motion is shorter than 1 mm.
-ErrorAxis AlongPath(const SE3d& T_target_source, double range_m);
+/// e metres further along the straight line of the lidar's motion and its rotation: T(u) of the
+/// paper's path with u = 1 + e / |t|. The lidar is at `sensor` in the source's frame. Throws
+/// UsageError where the motion is shorter than 1 mm.
+ErrorAxis AlongPath(const SE3d& T_target_source, const Vec3& sensor, double range_m);
 
-/// Turned by e degrees about the lidar's vertical: T Exp([0 0 e; 0]).
-ErrorAxis Yaw(const SE3d& T_target_source, double range_deg);
+/// Turned by e degrees about the lidar's vertical: T Exp([0 0 e; 0]) with the lidar at the origin.
+ErrorAxis Yaw(const SE3d& T_target_source, const Vec3& sensor, double range_deg);
 
 /// The error at which the objective is least, between -2 range and 2 range: least of `samples`
 /// poses, then the vertex of the parabola of rmse through it and its two neighbours.

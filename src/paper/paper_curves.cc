@@ -60,7 +60,7 @@ std::map<std::string, PaperCurve> EvaluatePaperCurves(const PreparedPair& scans,
   for (const FigureCurve& curve : curves) {
     files[curve.variant][curve.metric] = curve.file;
   }
-  const Path path(SE3d(), T_ground_truth, PathKind::kLerpSlerp);
+  const Path path(SE3d(), T_ground_truth, PathKind::kLerpSlerp, scans.source.cloud().sensor);
   std::map<std::string, PaperCurve> result;
   int done_before = 0;
   for (const auto& [variant, file_of_metric] : files) {

@@ -6,8 +6,9 @@
 
 namespace icpscape {
 
-/// Turns every point about the horizontal axis across its line of sight by this angle (upwards if
-/// positive): users of KITTI correct the HDL-64's elevation calibration so, by about 0.2 degrees.
+/// Turns every point about the horizontal axis through the sensor across its line of sight by this
+/// angle (upwards if positive): users of KITTI correct the HDL-64's elevation calibration so, by
+/// about 0.2 degrees.
 void CorrectElevation(double angle_deg, PointCloud* cloud);
 
 }  // namespace icpscape

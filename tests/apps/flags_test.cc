@@ -18,6 +18,8 @@
 #include "apps/flags/objective.h"
 #include "apps/flags/odometry.h"
 #include "apps/flags/preparation.h"
+#include "apps/flags/sensor.h"
+#include "icpscape/common/error.h"
 #include "icpscape/objective/loss.h"
 
 namespace icpscape {
@@ -158,6 +160,30 @@ TEST_F(Flags, OfPreparationFiltersAndLidar) {
   EXPECT_EQ(LidarFromFlags().ring_bias_m, 0.04);
   EXPECT_EQ(LidarFromFlags().dropout, 0.25);
   EXPECT_EQ(SeedFromFlags(), 17U);
+}
+
+// In the coordinates of the files, from which a far origin was taken out when they were read.
+TEST_F(Flags, OfTheSensor) {
+  const auto sensor_of_scan = [] {
+    ScanSequence sequence;
+    sequence.scans.push_back({"0.pcd", "", [](DroppedPoints* /*dropped*/) {
+                                PointCloud cloud;
+                                cloud.sensor = {7, 7, 7};
+                                cloud.origin = {1000, -2000, 0};
+                                return cloud;
+                              }});
+    PlaceSensors(&sequence);
+    return sequence.scans[0].read(nullptr).sensor;
+  };
+  EXPECT_FALSE(SensorFromFlags());
+  EXPECT_EQ(sensor_of_scan(), Vec3(7, 7, 7));
+  Set({{"sensor_origin", "1001.5,-2,0.25"}});
+  EXPECT_EQ(*SensorFromFlags(), Vec3(1001.5, -2, 0.25));
+  EXPECT_EQ(sensor_of_scan(), Vec3(1.5, 1998, 0.25));
+  for (const char* wrong : {"1", "1,2,x", "1,2,3,4", "1,2,nan"}) {
+    Set({{"sensor_origin", wrong}});
+    EXPECT_THROW(SensorFromFlags(), UsageError) << wrong;
+  }
 }
 
 TEST_F(Flags, OfTheOdometry) {

@@ -113,5 +113,45 @@ TEST_F(Sources, APairIsReadPreparedAndRegisteredWithOneSearchPerScan) {
   }
 }
 
+// The same scans, told in frames whose origin is elsewhere. lerp_slerp is the path of the sensor,
+// so that the curves are the same if and only if its place is told as well.
+TEST_F(Sources, TheSensorIsWhereItIsSaidToBe) {
+  const SE3d shift(Mat3::Identity(), Vec3(256, -128, 32));
+  DroppedPoints dropped;
+  for (const char* name : {"source", "target"}) {
+    const std::string file = std::string(name) + ".ply";
+    WritePly(Path("far_" + file), ReadPointFile(Path(file), &dropped).Transformed(shift));
+  }
+  folder_.Write("far_truth.txt",
+                FormatTransform(shift * ReadTransform(Path("truth.txt")) * shift.Inverse()));
+  const auto rmse = [&](std::vector<std::string> arguments) {
+    arguments.insert(arguments.end(),
+                     {"--samples=4", "--metrics=point_to_point", "--out=" + Path("out")});
+    const Outcome outcome = RunProgram("landscape", arguments);
+    EXPECT_EQ(outcome.code, 0) << outcome.err;
+    std::vector<double> values;
+    for (const auto& row : testing_support::ReadCsv(Path("out/curves.csv"))) {
+      values.push_back(std::stod(row.at("rmse")));
+    }
+    return values;
+  };
+  const std::vector<std::string> far = {"--source=" + Path("far_source.ply"),
+                                        "--target=" + Path("far_target.ply"),
+                                        "--ground_truth=" + Path("far_truth.txt")};
+  std::vector<std::string> with_sensor = far;
+  with_sensor.push_back("--sensor_origin=256,-128,32");
+  const std::vector<double> here = rmse(Files()), told = rmse(with_sensor), untold = rmse(far);
+  ASSERT_EQ(here.size(), 4U);
+  for (std::size_t i = 0; i < here.size(); ++i) {
+    EXPECT_NEAR(told[i], here[i], 1e-4 * here[i]) << i;
+  }
+  EXPECT_GT(std::abs(untold[0] - here[0]), 0.05 * here[0]);
+
+  ExpectRefusal(RunProgram("register", Files({"--sensor_origin=1,2"})), 1,
+                "--sensor_origin=1,2: expected three numbers");
+  ExpectRefusal(RunProgram("register", {"--scene=right_turn", "--sensor_origin=1,2,3"}), 1,
+                "no --sensor_origin with it");
+}
+
 }  // namespace
 }  // namespace icpscape

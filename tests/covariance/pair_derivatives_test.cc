@@ -26,11 +26,13 @@ Vec6 Gradient(const Correspondence& pair, const SE3d& T, const ceres::LossFuncti
   return rho[1] * metric.Jacobian(T).transpose() * r;
 }
 
+const Sensors kSensors = {Vec3(3, -2, 1), Vec3(-5, 4, 2)};
+
 // The pair with its points moved along the rays from their sensors.
 Correspondence Moved(const Correspondence& pair, double source_m, double target_m) {
   Correspondence moved = pair;
-  moved.p_source += source_m * pair.p_source.normalized();
-  const Vec3 step = target_m * pair.q_target.normalized();
+  moved.p_source += source_m * (pair.p_source - kSensors.source).normalized();
+  const Vec3 step = target_m * (pair.q_target - kSensors.target).normalized();
   moved.q_target += step;
   moved.a_line += step;
   moved.q_patch += step;
@@ -46,7 +48,7 @@ void CheckAgainstDifferences() {
     SCOPED_TRACE(std::string(M::kName) + ", sample " + std::to_string(sample));
     const SE3d T = sampler.Pose(3, sampler.Uniform(0, 2));
     const Correspondence pair = sampler.Pair(T, 0.5);
-    const PairDerivatives d = PairDerivativesOf(MetricNamed(M::kName))(pair, T, &loss);
+    const PairDerivatives d = PairDerivativesOf(MetricNamed(M::kName))(pair, T, &loss, kSensors);
     EXPECT_EQ(d.rows, M::kDim);
     const Vec6 gradient = Gradient<M>(pair, T, loss);
     EXPECT_LE((d.gradient - gradient).norm(), 1e-12 * gradient.norm());
@@ -89,7 +91,7 @@ TEST(PairDerivatives, WithoutLossTheGaussNewtonPartIsJtJ) {
   const SE3d T = sampler.Pose(3, 1);
   const Correspondence pair = sampler.Pair(T, 0.5);
   const auto J = TwoPlane::From(pair).Jacobian(T);
-  const PairDerivatives d = PairDerivativesOf(MetricNamed("two_plane"))(pair, T, nullptr);
+  const PairDerivatives d = PairDerivativesOf(MetricNamed("two_plane"))(pair, T, nullptr, {});
   EXPECT_LE((d.gauss_newton - J.transpose() * J).norm(), 1e-12 * d.gauss_newton.norm());
 }
 
@@ -100,7 +102,7 @@ TEST(PairDerivatives, AreFiniteWhereTheMetricIsNotSmooth) {
   Correspondence pair = sampler.Pair(T, 0);
   pair.a_line = T * pair.p_source;
   const PairDerivatives d =
-      PairDerivativesOf(MetricNamed("edge_to_line_distance"))(pair, T, nullptr);
+      PairDerivativesOf(MetricNamed("edge_to_line_distance"))(pair, T, nullptr, {});
   EXPECT_TRUE(d.gradient.allFinite());
   EXPECT_TRUE(d.gradient_by_xi.allFinite());
   EXPECT_TRUE(d.by_source_range.allFinite());

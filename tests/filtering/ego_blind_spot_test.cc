@@ -45,6 +45,27 @@ TEST(EgoBlindSpotFilter, DropsWhatTheOtherSensorCannotSee) {
   EXPECT_THROW(EgoBlindSpotFilter(source, target, T, -1), UsageError);
 }
 
+// The same scans with each sensor away from the origin of its frame.
+TEST(EgoBlindSpotFilter, IsAboutTheSensors) {
+  Mat3 R;
+  R << 0, -1, 0, 1, 0, 0, 0, 0, 1;
+  const SE3d T(R, Vec3(2, 0, 0.3));
+  const SE3d source_shift(Mat3::Identity(), Vec3(30, -20, 1));
+  const SE3d target_shift(Mat3::Identity(), Vec3(-7, 50, 2));
+  const PointCloud target =
+      Along({{7, 0, 0}, {7.01, 0, 0}, {-2.99, 0, 0}, {-3.01, 0, 0}}).Transformed(target_shift);
+  const PointCloud source =
+      Along({{0, 6.99, 0}, {0, 7.01, 0}, {0, -2.99, 0}, {-3.01, 0, 0}}).Transformed(source_shift);
+  EXPECT_EQ(source.sensor, Vec3(30, -20, 1));
+  const KeptPoints kept =
+      EgoBlindSpotFilter(source, target, target_shift * T * source_shift.Inverse(), 5.001);
+  EXPECT_THAT(kept.target, testing::ElementsAre(0, 1, 0, 1));
+  EXPECT_THAT(kept.source, testing::ElementsAre(0, 1, 0, 0));
+  const KeptPoints own = ArtificialBlindSpots(source, target, 3);
+  EXPECT_THAT(own.source, testing::ElementsAre(1, 1, 0, 1));
+  EXPECT_THAT(own.target, testing::ElementsAre(1, 1, 0, 1));
+}
+
 TEST(EgoBlindSpotFilter, WithoutMotionIsTheArtificialBlindSpot) {
   std::vector<Vec3> points;
   for (int x = -8; x <= 8; ++x) {

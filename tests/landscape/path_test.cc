@@ -3,6 +3,8 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+
 #include "icpscape/common/error.h"
 #include "icpscape/testing/residual_sampler.h"
 
@@ -63,12 +65,42 @@ TEST(Path, BodyTwistIsTheDerivative) {
   constexpr double h = 1e-5;
   for (const PathKind kind : kKinds) {
     for (int i = 0; i < 100; ++i) {
-      const Path path(sampler.Pose(3, 1), sampler.Pose(3, 1), kind);
+      const Path path(sampler.Pose(3, 1), sampler.Pose(3, 1), kind, Vec3(5, -4, 3));
       const double u = sampler.Uniform(-1, 2);
       const Vec6 numeric = (path.Pose(u - h).Inverse() * path.Pose(u + h)).Log() / (2 * h);
       EXPECT_LE((path.BodyTwist(u) - numeric).norm(), 1e-8);
     }
   }
+}
+
+// The same motion of the same sensor, with the origins of both frames put elsewhere: every kind of
+// path takes a point of the world through the same places. Without the sensor's place, two do not.
+TEST(Path, OfASensorDoesNotHangOnTheOrigins) {
+  ResidualSampler sampler(5);
+  const SE3d T_0 = sampler.Pose(3, 0.5), T_1 = sampler.Pose(3, 0.8);
+  const Vec3 sensor(0.4, -0.2, 1.7);
+  const SE3d source(Mat3::Identity(), Vec3(300, -150, 40));
+  const SE3d target(Mat3::Identity(), Vec3(-90, 220, 60));
+  const SE3d T_0_far = target * T_0 * source.Inverse(), T_1_far = target * T_1 * source.Inverse();
+  const Vec3 sensor_far = source * sensor, point(10, 20, -1);
+  for (const PathKind kind : AllOf<PathKind>()) {
+    const Path here(T_0, T_1, kind, sensor), far(T_0_far, T_1_far, kind, sensor_far);
+    const Path without(T_0_far, T_1_far, kind);
+    double apart = 0;
+    for (const double u : {-1.0, 0.0, 0.3, 1.0, 2.0}) {
+      const Vec3 place = target * (here.Pose(u) * point);
+      EXPECT_LT((far.Pose(u) * (source * point) - place).norm(), 1e-10) << NameOf(kind) << u;
+      apart = std::max(apart, (without.Pose(u) * (source * point) - place).norm());
+      // The twist of the far frame, seen from here.
+      EXPECT_LT((source.Inverse().Adjoint() * far.BodyTwist(u) - here.BodyTwist(u)).norm(), 1e-9);
+    }
+    EXPECT_EQ(apart > 0.1, kind != PathKind::kGeodesic) << NameOf(kind);
+  }
+  // By its definition: the place of the sensor goes straight.
+  const Path path(T_0, T_1, PathKind::kLerpSlerp, sensor);
+  EXPECT_LT((path.Pose(0.3) * sensor - (0.7 * (T_0 * sensor) + 0.3 * (T_1 * sensor))).norm(),
+            1e-13);
+  EXPECT_LT((path.PlaceOfSensor(T_1) - T_1 * sensor).norm(), 1e-13);
 }
 
 TEST(Path, TinyAndNoRotation) {

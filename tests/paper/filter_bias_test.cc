@@ -14,14 +14,14 @@ namespace {
 const SE3d kMotion = SE3d::Exp((Vec6() << 0, 0, 0.02, 0.6, 0.05, 0).finished());
 
 TEST(FilterBias, AxesPassThroughTheTruthInTheirUnits) {
-  const ErrorAxis along = AlongPath(kMotion, 0.3);
-  const ErrorAxis yaw = Yaw(kMotion, 0.5);
+  const ErrorAxis along = AlongPath(kMotion, Vec3::Zero(), 0.3);
+  const ErrorAxis yaw = Yaw(kMotion, Vec3::Zero(), 0.5);
   EXPECT_LT((along.pose(0).t() - kMotion.t()).norm(), 1e-12);
   EXPECT_NEAR((along.pose(0.3).t() - kMotion.t()).norm(), 0.3, 1e-12);
   EXPECT_GT(along.pose(0.3).t().norm(), kMotion.t().norm());
   EXPECT_EQ((yaw.pose(0.5).t() - kMotion.t()).norm(), 0);
   EXPECT_NEAR((kMotion.Inverse() * yaw.pose(0.5)).LogRotation().z(), 0.5 * M_PI / 180, 1e-12);
-  EXPECT_THROW(AlongPath(SE3d(), 0.3), UsageError);
+  EXPECT_THROW(AlongPath(SE3d(), Vec3::Zero(), 0.3), UsageError);
 }
 
 TEST(FilterBias, ArgminOfAnUnfilteredPairIsTheTruth) {
@@ -30,11 +30,11 @@ TEST(FilterBias, ArgminOfAnUnfilteredPairIsTheTruth) {
   EstimateNormals({}, 2, &target);
   const ClosestPointMatcher matcher(source, target);
   const Objective objective("point_to_plane", matcher);
-  EXPECT_NEAR(ArgminError(objective, AlongPath(kMotion, 0.3), 41, 2), 0, 0.02);
-  EXPECT_NEAR(ArgminError(objective, Yaw(kMotion, 0.5), 41, 2), 0, 0.2);
-  EXPECT_EQ(ArgminError(objective, AlongPath(kMotion, 0.3), 41, 1),
-            ArgminError(objective, AlongPath(kMotion, 0.3), 41, 2));
-  EXPECT_THROW(ArgminError(objective, Yaw(kMotion, 0.5), 2, 1), UsageError);
+  EXPECT_NEAR(ArgminError(objective, AlongPath(kMotion, Vec3::Zero(), 0.3), 41, 2), 0, 0.02);
+  EXPECT_NEAR(ArgminError(objective, Yaw(kMotion, Vec3::Zero(), 0.5), 41, 2), 0, 0.2);
+  EXPECT_EQ(ArgminError(objective, AlongPath(kMotion, Vec3::Zero(), 0.3), 41, 1),
+            ArgminError(objective, AlongPath(kMotion, Vec3::Zero(), 0.3), 41, 2));
+  EXPECT_THROW(ArgminError(objective, Yaw(kMotion, Vec3::Zero(), 0.5), 2, 1), UsageError);
 }
 
 // Two points 5 m apart across the motion: at the error e of the way the residual is
@@ -47,7 +47,8 @@ TEST(FilterBias, ArgminIsTheVertexBetweenSamples) {
     testing_support::AddPoint(Vec3(10, 0, 0), &source);
     testing_support::AddPoint(Vec3(12 + offset, 5, 0), &target);
     const ClosestPointMatcher matcher(source, target);
-    return ArgminError(Objective("point_to_point", matcher), AlongPath(motion, 0.3), 41, 1);
+    return ArgminError(Objective("point_to_point", matcher), AlongPath(motion, Vec3::Zero(), 0.3),
+                       41, 1);
   };
   for (const double offset : {0.0, 0.1, -0.107, 0.25, 0.55}) {  // Also beyond the range of 0.3 m.
     EXPECT_NEAR(argmin(offset), offset, 1e-4) << offset;
@@ -61,7 +62,8 @@ TEST(FilterBias, ArgminNeedsPairsAtEveryPose) {
   testing_support::AddPoint(Vec3(10, 0, 0), &source);
   testing_support::AddPoint(Vec3(10.6, 0, 0), &target);
   const ClosestPointMatcher matcher(source, target, {0.5});  // At 0.6 m but not at -0.6 m.
-  EXPECT_THROW(ArgminError(Objective("point_to_point", matcher), AlongPath(kMotion, 0.3), 41, 1),
+  EXPECT_THROW(ArgminError(Objective("point_to_point", matcher),
+                           AlongPath(kMotion, Vec3::Zero(), 0.3), 41, 1),
                ComputationError);
 }
 

@@ -21,5 +21,19 @@ TEST(CorrectElevation, TurnsAboutTheHorizontalAxis) {
   EXPECT_NEAR(cloud.z[1], std::sqrt(50) * std::sin(46 * M_PI / 180), 1e-6);
 }
 
+// The same two points about a sensor elsewhere.
+TEST(CorrectElevation, TurnsAboutTheSensor) {
+  PointCloud cloud;
+  cloud.sensor = {100, -50, 20};
+  cloud.x = {110, 100};
+  cloud.y = {-50, -45};
+  cloud.z = {20, 25};
+  CorrectElevation(1, &cloud);
+  EXPECT_NEAR(cloud.x[0], 100 + 10 * std::cos(M_PI / 180), 1e-5);
+  EXPECT_NEAR(cloud.z[0], 20 + 10 * std::sin(M_PI / 180), 1e-5);
+  EXPECT_NEAR(cloud.y[1], -50 + std::sqrt(50) * std::cos(46 * M_PI / 180), 1e-5);
+  EXPECT_NEAR(cloud.z[1], 20 + std::sqrt(50) * std::sin(46 * M_PI / 180), 1e-5);
+}
+
 }  // namespace
 }  // namespace icpscape
