@@ -4,9 +4,10 @@
 
 #include <cmath>
 #include <random>
+#include <utility>
 
-#include "icpscape/cloud/normals.h"
-#include "icpscape/cloud/point_cloud.h"
+#include "icpscape/preparation/prepared_scan.h"
+#include "icpscape/residuals/correspondence.h"
 
 namespace icpscape::testing_support {
 
@@ -57,7 +58,10 @@ inline PointCloud Room(int points, unsigned seed, const SE3d& T_sensor_room = SE
 }
 
 /// Adds all that a metric can need of a cloud.
-inline void Complete(PointCloud* cloud) { EstimateNormals({}, 2, cloud); }
+inline void Complete(PointCloud* cloud) {
+  constexpr unsigned kNeeds = NeedsFrom(Origin::kSourceCloud) | NeedsFrom(Origin::kTargetCloud);
+  *cloud = Prepare(std::move(*cloud), kNeeds, {}, 2).cloud();
+}
 
 /// The room seen from two places: T_target_source is `motion`. Both clouds are complete.
 struct MovedRoom {
