@@ -1,12 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <gflags/gflags.h>
 
-#include <algorithm>
-#include <iomanip>
 #include <iostream>
 #include <string>
 #include <vector>
 
+#include "apps/reports/aligned_table.h"
 #include "apps/run/app.h"
 #include "icpscape/residuals/registry.h"
 
@@ -57,32 +56,6 @@ constexpr Variant kVariants[] = {
     {"minimiser", "matches at every step or evaluation", "--reassociation", "not in the paper"},
 };
 
-// Columns aligned for a terminal, or as Markdown.
-void PrintTable(const std::vector<std::vector<std::string>>& rows) {
-  std::vector<std::size_t> widths(rows[0].size());
-  for (const std::vector<std::string>& row : rows) {
-    for (std::size_t i = 0; i < row.size(); ++i) {
-      widths[i] = std::max(widths[i], row[i].size());
-    }
-  }
-  for (std::size_t r = 0; r < rows.size(); ++r) {
-    for (std::size_t i = 0; i < rows[r].size(); ++i) {
-      if (FLAGS_markdown) {
-        std::cout << (i == 0 ? "| " : " | ") << rows[r][i];
-      } else {
-        std::cout << std::left << std::setw(static_cast<int>(widths[i]) + 2) << rows[r][i];
-      }
-    }
-    std::cout << (FLAGS_markdown ? " |\n" : "\n");
-    if (r == 0 && FLAGS_markdown) {
-      for (std::size_t i = 0; i < widths.size(); ++i) {
-        std::cout << "|---";
-      }
-      std::cout << "|\n";
-    }
-  }
-}
-
 // A formula as code; Markdown's tables want | escaped even there.
 std::string FormulaText(const std::string& formula) {
   if (!FLAGS_markdown) {
@@ -104,13 +77,13 @@ void ListMetrics() {
                        FormulaText(EpsilonText(Metric::kEpsilon)), NeedsColumn(Metric::kNeeds),
                        Metric::kSource});
   });
-  PrintTable(metrics);
+  PrintAligned(metrics, FLAGS_markdown);
   std::cout << "\n";
   std::vector<std::vector<std::string>> variants = {{"stage", "variant", "flag", "source"}};
   for (const Variant& variant : kVariants) {
     variants.push_back({variant.stage, variant.name, variant.flag, variant.source});
   }
-  PrintTable(variants);
+  PrintAligned(variants, FLAGS_markdown);
 }
 
 }  // namespace

@@ -11,8 +11,6 @@
 #include "apps/run/run_flags.h"
 #include "icpscape/common/error.h"
 #include "icpscape/io/dataset.h"
-#include "icpscape/io/kitti.h"
-#include "icpscape/io/sequences.h"
 #include "icpscape/io/sha256.h"
 #include "icpscape/io/transform.h"
 #include "icpscape/simulation/drive.h"
@@ -67,17 +65,8 @@ void WriteScene(const std::string& name, Run* run) {
       name, "scene " + name, poses, [&] { return std::move(scene.world); }, -kScanPeriodS, run);
 }
 
-std::vector<SE3d> LidarPoses(const SimulationPlan& plan) {
-  const ScanSequence sequence = OpenKittiSequence(plan.kitti_root, plan.drive);
-  if (sequence.T_world_lidar.empty()) {
-    throw InputError(KittiFiles(plan.kitti_root, plan.drive).Poses().string() +
-                     ": no poses; expected them, and calib.txt, to drive along.");
-  }
-  return sequence.T_world_lidar;
-}
-
 void WriteDrive(const SimulationPlan& plan, Run* run) {
-  const std::vector<SE3d> poses = plan.kitti_root.empty() ? TownRoute() : LidarPoses(plan);
+  const std::vector<SE3d> poses = PosesOfDrive(plan);
   const FrameRange& frames = plan.frames;
   const int count = static_cast<int>(poses.size());
   if (frames.first >= count || frames.last >= count) {

@@ -5,6 +5,8 @@
 
 #include "apps/run/flag.h"
 #include "icpscape/common/error.h"
+#include "icpscape/io/kitti.h"
+#include "icpscape/simulation/route.h"
 #include "icpscape/simulation/scenes.h"
 
 static const icpscape::FlagGroup group(__FILE__, "Scene or drive");
@@ -48,6 +50,18 @@ SimulationPlan SimulationFromFlags() {
     }
   }
   return plan;
+}
+
+std::vector<SE3d> PosesOfDrive(const SimulationPlan& plan) {
+  if (plan.kitti_root.empty()) {
+    return TownRoute();
+  }
+  const ScanSequence sequence = OpenKittiSequence(plan.kitti_root, plan.drive);
+  if (sequence.T_world_lidar.empty()) {
+    throw InputError(KittiFiles(plan.kitti_root, plan.drive).Poses().string() +
+                     ": no poses; expected them, and calib.txt, to drive along.");
+  }
+  return sequence.T_world_lidar;
 }
 
 }  // namespace icpscape

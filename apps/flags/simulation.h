@@ -22,6 +22,10 @@ struct SimulationPlan {
 /// --scene, or --kitti_root and --sequence; --frames, --ply. Throws UsageError.
 SimulationPlan SimulationFromFlags();
 
+/// T_world_lidar of the plan's drive: those of KITTI's files, or of the route through the town.
+/// Throws InputError where the files have none.
+std::vector<SE3d> PosesOfDrive(const SimulationPlan& plan);
+
 }  // namespace icpscape
 
 #endif  // ICPSCAPE_APPS_FLAGS_SIMULATION_H_
