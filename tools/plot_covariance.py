@@ -10,11 +10,8 @@ import csv
 import math
 import os
 
-import matplotlib
-
-matplotlib.use("Agg")
-import matplotlib.pyplot as plt  # noqa: E402
-import numpy as np  # noqa: E402
+import numpy as np
+from plot_style import add_format_argument, plt, save
 
 COMPONENTS = ["rx", "ry", "rz", "tx", "ty", "tz"]
 UNITS = ["rad"] * 3 + ["m"] * 3
@@ -102,6 +99,7 @@ def main():
     parser.add_argument("folder", help="folder with draws.csv and calibration.csv")
     parser.add_argument("--out", required=True, help="path of the figures, without extension")
     parser.add_argument("--title", default="")
+    add_format_argument(parser)
     arguments = parser.parse_args()
     draws = read(arguments.folder, "draws.csv")
     calibration = read(arguments.folder, "calibration.csv")
@@ -131,9 +129,7 @@ def main():
     figure.legend(handles=handles, loc="lower center", ncols=len(handles), frameon=False,
                   fontsize=8)
     figure.suptitle(arguments.title + ": errors, 95 % ellipses and NEES", fontsize=11)
-    plt.rcParams["svg.hashsalt"] = "icpscape"  # The same picture is the same file.
-    figure.savefig(arguments.out + ".svg", metadata={"Date": None})
-    figure.savefig(arguments.out + ".png", dpi=110)
+    save(figure, arguments.out, arguments.formats, dpi=110)
 
 
 if __name__ == "__main__":

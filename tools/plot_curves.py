@@ -9,7 +9,7 @@ they are.
 """
 import argparse
 
-from plot_style import LABELS, plt, read_groups, save, styles_of
+from plot_style import LABELS, add_format_argument, plt, read_groups, save, styles_of
 
 
 def draw_values(axes, curves, column, styles):
@@ -98,11 +98,12 @@ def main():
     parser.add_argument("--iterates", help="iterates.csv of the same run, to draw as well")
     parser.add_argument("--column", default="rmse", choices=sorted(LABELS))
     parser.add_argument("--title", default="")
+    add_format_argument(parser)
     arguments = parser.parse_args()
     iterates = read_groups(arguments.iterates, "metric") if arguments.iterates else {}
     figure = draw(read_groups(arguments.curves, "metric"), iterates, arguments.column,
                   arguments.title)
-    save(figure, arguments.out)
+    save(figure, arguments.out, arguments.formats)
 
 
 if __name__ == "__main__":

@@ -8,7 +8,7 @@ import argparse
 import csv
 from collections import defaultdict
 
-from plot_style import plt, save, styles_of
+from plot_style import add_format_argument, plt, save, styles_of
 
 
 def main():
@@ -16,6 +16,7 @@ def main():
     parser.add_argument("table", help="filter_bias.csv of icpscape-filter_bias")
     parser.add_argument("--out", required=True, help="path of the figures, without extension")
     parser.add_argument("--title", default="")
+    add_format_argument(parser)
     arguments = parser.parse_args()
     curves = defaultdict(lambda: defaultdict(list))
     units = {}
@@ -41,7 +42,7 @@ def main():
         axes.set_ylabel(f"error of the minimum ({units[sweep]})")
     panels[0][0].legend(frameon=False, fontsize=8)
     figure.suptitle(arguments.title, fontsize=10)
-    save(figure, arguments.out)
+    save(figure, arguments.out, arguments.formats)
 
 
 if __name__ == "__main__":

@@ -7,7 +7,7 @@ Reads iterates.csv of icpscape-landscape (one line a metric) or icpscape-registe
 import argparse
 
 from matplotlib.ticker import MaxNLocator
-from plot_style import LABELS, plt, read_groups, save, styles_of
+from plot_style import LABELS, add_format_argument, plt, read_groups, save, styles_of
 
 
 def draw(runs, column, title):
@@ -45,9 +45,10 @@ def main():
     parser.add_argument("--out", required=True, help="path of the figures, without extension")
     parser.add_argument("--column", default="rmse", choices=("cost", "rmse"))
     parser.add_argument("--title", default="")
+    add_format_argument(parser)
     arguments = parser.parse_args()
     figure = draw(read_groups(arguments.table, "metric"), arguments.column, arguments.title)
-    save(figure, arguments.out)
+    save(figure, arguments.out, arguments.formats)
 
 
 if __name__ == "__main__":

@@ -10,10 +10,7 @@ import csv
 import os
 from collections import defaultdict
 
-import matplotlib
-
-matplotlib.use("Agg")
-import matplotlib.pyplot as plt  # noqa: E402
+from plot_style import add_format_argument, plt, save
 
 COLORS = {"orange": "#ff8000", "green": "#00ff00", "cyan": "#00ffff", "violet": "#800080",
           "blue": "#0000ff", "gray": "0.6"}  # As xcolor mixes them.
@@ -52,6 +49,7 @@ def main():
     parser = argparse.ArgumentParser(description=__doc__)
     parser.add_argument("folder", help="the --out of icpscape-paper_figures")
     parser.add_argument("--out", help="folder for the figures; that of the tables by default")
+    add_format_argument(parser)
     arguments = parser.parse_args()
     folder = arguments.folder
     out = arguments.out or folder
@@ -59,11 +57,9 @@ def main():
     with open(os.path.join(folder, "figures.csv"), newline="") as file:
         for row in csv.DictReader(file):
             figures[row["figure"]].append(row)
-    plt.rcParams["svg.hashsalt"] = "icpscape"  # The same picture is the same file.
     for name, curves in figures.items():
         figure = draw(folder, curves)
-        figure.savefig(os.path.join(out, name + ".svg"), metadata={"Date": None})
-        figure.savefig(os.path.join(out, name + ".png"), dpi=150)
+        save(figure, os.path.join(out, name), arguments.formats)
         plt.close(figure)
 
 

@@ -50,10 +50,16 @@ def styles_of(metrics):
             for metric in metrics}
 
 
-def save(figure, path):
-    """PATH.svg and PATH.png, each beside its place and then renamed to it."""
+def add_format_argument(parser):
+    parser.add_argument("--formats", default="all", choices=("svg", "png", "all"))
+
+
+def save(figure, path, formats, dpi=150):
+    """PATH.svg, PATH.png or both ("all"), each beside its place and then renamed to it."""
     plt.rcParams["svg.hashsalt"] = "icpscape"  # The same picture is the same file.
-    for extension, options in ((".svg", {"metadata": {"Date": None}}), (".png", {"dpi": 150})):
+    for extension, options in ((".svg", {"metadata": {"Date": None}}), (".png", {"dpi": dpi})):
+        if formats not in ("all", extension[1:]):
+            continue
         part = path + ".part" + extension
         figure.savefig(part, **options)
         os.replace(part, path + extension)

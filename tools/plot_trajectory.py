@@ -5,7 +5,7 @@ below, how far the estimate is off over the length of the path."""
 import argparse
 import math
 
-from plot_style import plt, read_groups, save
+from plot_style import add_format_argument, plt, read_groups, save
 
 TRUTH, ESTIMATE = "0.55", "tab:blue"
 COLUMNS = 4  # Sequences side by side.
@@ -94,9 +94,10 @@ def main():
     parser.add_argument("trajectory", help="trajectory.csv as the programs write it")
     parser.add_argument("--out", required=True, help="path of the figures, without extension")
     parser.add_argument("--title", default="")
+    add_format_argument(parser)
     arguments = parser.parse_args()
     figure = draw(read_groups(arguments.trajectory, "sequence"), arguments.title)
-    save(figure, arguments.out)
+    save(figure, arguments.out, arguments.formats)
 
 
 if __name__ == "__main__":

@@ -44,7 +44,7 @@ void RecordFlags(Manifest* manifest) {
 
 }  // namespace
 
-Run::Run() : folder_(OutFromFlags()), manifest_(AppName()) {
+Run::Run() : folder_(OutFromFlags()), figures_(FigureFormatsFromFlags()), manifest_(AppName()) {
   PrepareOutputFolder(folder_);
   list_ = folder_ / ("." + AppName() + ".written");
   stale_ = ReadLines(list_);
@@ -89,8 +89,12 @@ void Run::Draw(const std::string& script, std::vector<std::string> arguments,
     std::filesystem::remove(folder_ / (figure + ".svg"));
     std::filesystem::remove(folder_ / (figure + ".png"));
   }
+  if (figures_ == FigureFormats::kNone) {
+    return;
+  }
   const ScratchFolder scratch(folder_ / (".figures." + std::to_string(getpid())));
-  arguments.insert(arguments.end(), {"--out", (scratch.path() / figure).string()});
+  arguments.insert(arguments.end(),
+                   {"--out", (scratch.path() / figure).string(), "--formats", NameOf(figures_)});
   if (!RunPlotScript(script, arguments)) {
     return;
   }

@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "apps/run/run_flags.h"
 #include "icpscape/io/manifest.h"
 
 namespace icpscape {
@@ -33,10 +34,10 @@ class Run {
   /// closing lines name it as well.
   std::filesystem::path Lasting(const std::string& name);
 
-  /// Draws: calls tools/SCRIPT with the arguments and "--out PATH", PATH being that of the figure
-  /// without extension, or of a folder where `figure` is empty. What the script has drawn moves
-  /// into the folder when all of it is done. Where drawing fails there is one warning, and no
-  /// figure, not even that of an earlier run.
+  /// Draws what --figures asks for: calls tools/SCRIPT with the arguments and "--out PATH", PATH
+  /// being that of the figure without extension, or of a folder where `figure` is empty. What the
+  /// script has drawn moves into the folder when all of it is done. Where drawing fails there is
+  /// one warning, and no figure, not even that of an earlier run.
   void Draw(const std::string& script, std::vector<std::string> arguments,
             const std::string& figure);
 
@@ -48,6 +49,7 @@ class Run {
   std::string WrittenText() const;
 
   std::filesystem::path folder_;
+  FigureFormats figures_;
   std::filesystem::path list_;      // Of this run's files, while it is not finished.
   std::vector<std::string> stale_;  // Of an earlier run; empty once they are removed.
   std::vector<std::string> files_, lasting_;

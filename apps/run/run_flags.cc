@@ -11,6 +11,8 @@ static const icpscape::FlagGroup group(__FILE__, "Run", icpscape::kAside);
 DEFINE_int32(threads, 0,
              "Number of threads; 0 uses all of the machine. Results do not depend on it.");
 DEFINE_string(out, "out", "Folder for the results.");
+DEFINE_string(figures, "all",
+              "Figures to draw: none, svg, png, all. Drawing takes a second or two.");
 
 namespace icpscape {
 
@@ -19,6 +21,8 @@ int ThreadsFromFlags() {
               "0 (all) to 1024");
   return FLAGS_threads > 0 ? FLAGS_threads : HardwareThreads();
 }
+
+FigureFormats FigureFormatsFromFlags() { return FromName<FigureFormats>(FLAGS_figures); }
 
 std::filesystem::path OutFromFlags() {
   RequireFlag(!FLAGS_out.empty(), "out", FLAGS_out, "a folder");

@@ -3,6 +3,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <chrono>
 #include <csignal>
 #include <cstdlib>
@@ -118,6 +119,34 @@ TEST_F(RunOfAProgram, ListsWhatItWroteAndLeavesNoFigureWhereDrawingFails) {
     }
     EXPECT_THAT(without.out, AllOf(Not(HasSubstr(".svg")), Not(HasSubstr(".png")))) << drawing.app;
   }
+}
+
+TEST_F(RunOfAProgram, DrawsTheFormatsThatAreAskedFor) {
+  for (const Drawing& drawing : Drawings()) {
+    const auto run = [&](const char* formats) {
+      std::vector<std::string> flags = drawing.flags;
+      flags.push_back(std::string("--figures=") + formats);
+      const Outcome outcome = RunProgram(drawing.app, flags);
+      EXPECT_EQ(outcome.code, 0) << drawing.app << ": " << outcome.err;
+      return outcome;
+    };
+    const auto has = [&](const char* extension) {
+      const std::set<std::string> names = Out();
+      return std::any_of(names.begin(), names.end(), [&](const std::string& name) {
+        return std::filesystem::path(name).extension() == extension;
+      });
+    };
+    run("svg");
+    EXPECT_TRUE(has(".svg") && !has(".png")) << drawing.app;
+    run("png");
+    EXPECT_TRUE(has(".png") && !has(".svg")) << drawing.app;
+    // No Python is started: it would fail, and be told.
+    const FakeMatplotlib broken("raise ImportError\n");
+    EXPECT_EQ(run("none").err, "") << drawing.app;
+    EXPECT_TRUE(!has(".png") && !has(".svg")) << drawing.app;
+  }
+  testing_support::ExpectRefusal(RunProgram("register", Files({"--figures=pdf"})), 1,
+                                 "none, svg, png, all");
 }
 
 TEST_F(RunOfAProgram, RemovesWhatAnEarlierRunOfItLeftAndNothingElse) {
