@@ -10,13 +10,14 @@
 #include "apps/flags/objective.h"
 #include "apps/flags/pair.h"
 #include "apps/flags/pair_filters.h"
+#include "apps/flags/preset.h"
 #include "apps/flags/starts.h"
 #include "apps/flags/verdict.h"
 #include "apps/reports/ground_truth_check.h"
 #include "apps/reports/registration.h"
+#include "apps/reports/starts.h"
 #include "apps/reports/verdict.h"
 #include "apps/run/app.h"
-#include "apps/run/progress.h"
 #include "apps/run/run.h"
 #include "icpscape/common/error.h"
 #include "icpscape/io/point_files.h"
@@ -28,6 +29,7 @@ namespace icpscape {
 namespace {
 
 void CheckFlags() {
+  PresetFromFlags();
   CheckPairFlags(MetricsFromFlags(), FLAGS_starts > 0);
   CheckFilterFlags();
   FeaturesFromFlags();
@@ -40,18 +42,11 @@ void CheckFlags() {
               "0 to 1e6");
 }
 
-void RunStarts(const JointObjective& objective, const SE3d& T_reference,
-               const MinimizerOptions& minimizer, Run* run) {
+RandomStartOptions StartsOf(const MinimizerOptions& minimizer) {
   RandomStartOptions options = StartsFromFlags();
   options.count = FLAGS_starts;
   options.minimizer = minimizer;
-  std::vector<StartResult> results;
-  {
-    Progress progress("starts", options.count);
-    results =
-        RunRandomStarts(objective, T_reference, options, [&](int done) { progress.Show(done); });
-  }
-  ReportStarts(results, options, run);
+  return options;
 }
 
 void Register() {
@@ -67,9 +62,12 @@ void Register() {
   if (pair.T_ground_truth) {
     check = ReportGroundTruthCheck(pair, scans, FLAGS_starts > 0, ThreadsFromFlags(), manifest);
   }
-  const ObjectiveSet set(FilterFromFlags(scans, pair, manifest), metrics, ObjectiveSetFromFlags());
-  const JointObjective objective(set.objectives(), WeightsFromFlags());
-  const MinimizerSummary summary = Minimize(objective, T_initial, options);
+  const Registration registration(FilterFromFlags(scans, pair, manifest), metrics,
+                                  WeightsFromFlags(), ObjectiveSetFromFlags(), PresetFromFlags(),
+                                  options.threads);
+  const Registered registered = registration.Run(T_initial, options);
+  const JointObjective& objective = registered.objective;
+  const MinimizerSummary& summary = registered.summary;
   manifest->AddTiming("register");
   const std::vector<NamedVerdict> verdicts = {
       {objective.Name(), JudgePose(objective, summary, VerdictFromFlags(options))}};
@@ -79,7 +77,7 @@ void Register() {
     throw ComputationError(objective.Name() + ": " + verdict.no_pose);
   }
   const SE3d& T = summary.T_target_source();
-  ReportRegistration(objective.Name(), summary, &run);
+  ReportRegistration(objective.Name(), registered, &run);
   const PointCloud& source = scans.source.cloud();
   ReportDisplacement("motion", "motion", MotionOfSensor(source, scans.target.cloud(), T), manifest);
   PrintVerdict(verdict);
@@ -96,7 +94,7 @@ void Register() {
   if (check) {
     report_off("off the refined reference", "off_refined", check->T_refined);
     if (FLAGS_starts > 0) {
-      RunStarts(objective, check->T_refined, options, &run);
+      RunStarts(registration, check->T_refined, CentroidOf(source), StartsOf(options), &run);
     }
   }
   run.Draw("plot_iterates.py",

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "apps/reports/registration.h"
 
-#include <algorithm>
 #include <cmath>
 #include <cstdio>
 #include <optional>
@@ -16,6 +15,33 @@ namespace {
 
 constexpr double kDegrees = 180 / M_PI;
 
+std::string LossScalesText(const Stage& stage) {
+  std::vector<std::string> texts;
+  for (const double scale : stage.loss_scales) {
+    texts.push_back(Number(scale));
+  }
+  return texts.empty() ? "none" : Join(texts, " ");
+}
+
+// "stages: all pairs, pairs up to 1.24 m, ...": what each loop of a preset saw.
+void ReportStages(const std::vector<Stage>& stages, Run* run) {
+  Table csv({"stage", "first_iterate", "max_distance_m", "loss_scales"});
+  std::printf("pairs of the stages:");
+  for (std::size_t i = 0; i < stages.size(); ++i) {
+    const Stage& stage = stages[i];
+    csv.AddRow({std::to_string(i), std::to_string(stage.first_iterate),
+                Number(stage.max_distance_m), LossScalesText(stage)});
+    if (stage.max_distance_m > 0) {
+      std::printf("%s up to %.3g m", i > 0 ? "," : "", stage.max_distance_m);
+    } else {
+      std::printf("%s all", i > 0 ? "," : "");
+    }
+  }
+  std::printf("\n");
+  csv.WriteCsv(run->File("stages.csv"));
+  run->manifest()->SetResult("last_max_distance_m", stages.back().max_distance_m);
+}
+
 }  // namespace
 
 void ReportDisplacement(const std::string& what, const std::string& name,
@@ -26,8 +52,12 @@ void ReportDisplacement(const std::string& what, const std::string& name,
   manifest->SetResult(name + "_deg", degrees);
 }
 
-void ReportRegistration(const std::string& name, const MinimizerSummary& summary, Run* run) {
+void ReportRegistration(const std::string& name, const Registered& registered, Run* run) {
+  const MinimizerSummary& summary = registered.summary;
   PrintIterates(summary);
+  if (registered.stages.size() > 1) {
+    ReportStages(registered.stages, run);
+  }
   WriteIterates({{name, summary}}, std::nullopt, run);
   std::printf("%s: %s\nfinal cost: %s\n", NameOf(summary.termination), summary.message.c_str(),
               Number(summary.final_cost()).c_str());
@@ -36,30 +66,6 @@ void ReportRegistration(const std::string& name, const MinimizerSummary& summary
   manifest->SetResult("final_cost", summary.final_cost());
   manifest->SetResult("matching_passes", summary.matching_passes);
   WriteTextFile(run->File("T_target_source.txt"), FormatTransform(summary.T_target_source()));
-}
-
-void ReportStarts(const std::vector<StartResult>& results, const RandomStartOptions& options,
-                  Run* run) {
-  Table csv({"start", "start_m", "start_deg", "end_m", "end_deg", "iterations", "termination",
-             "success"});
-  for (std::size_t i = 0; i < results.size(); ++i) {
-    const StartResult& r = results[i];
-    csv.AddRow({std::to_string(i), Number(r.start_m), Number(r.start_rad * kDegrees),
-                Number(r.end_m), Number(r.end_rad * kDegrees), std::to_string(r.iterations),
-                NameOf(r.termination), r.success ? "1" : "0"});
-  }
-  csv.WriteCsv(run->File("starts.csv"));
-  const auto successes =
-      std::count_if(results.begin(), results.end(), [](const StartResult& r) { return r.success; });
-  const double percent =
-      100.0 * static_cast<double>(successes) / static_cast<double>(results.size());
-  std::printf(
-      "random starts up to %g m, %g deg: %ld of %zu succeed (%.1f %%; within %g m and %g "
-      "deg of the refined reference)\n",
-      options.translation_m, options.rotation_rad * kDegrees, static_cast<long>(successes),
-      results.size(), percent, kSuccessM, kSuccessRad * kDegrees);
-  run->manifest()->SetResult("success_percent", percent);
-  run->manifest()->AddTiming("starts");
 }
 
 }  // namespace icpscape

@@ -6,7 +6,7 @@
 
 #include "apps/run/run.h"
 #include "icpscape/cloud/displacement.h"
-#include "icpscape/minimizer/random_starts.h"
+#include "icpscape/minimizer/registration.h"
 
 namespace icpscape {
 
@@ -15,13 +15,9 @@ namespace icpscape {
 void ReportDisplacement(const std::string& what, const std::string& name,
                         const Displacement& displacement, Manifest* manifest);
 
-/// Prints and records how a minimisation of the objective of that name went; writes iterates.csv
-/// and T_target_source.txt.
-void ReportRegistration(const std::string& name, const MinimizerSummary& summary, Run* run);
-
-/// Prints and records how many random starts succeed, and writes starts.csv.
-void ReportStarts(const std::vector<StartResult>& results, const RandomStartOptions& options,
-                  Run* run);
+/// Prints and records how a registration by the objective of that name went; writes iterates.csv
+/// and T_target_source.txt, and stages.csv where there were several.
+void ReportRegistration(const std::string& name, const Registered& registered, Run* run);
 
 }  // namespace icpscape
 

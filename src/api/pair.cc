@@ -88,16 +88,20 @@ void PairOptions::Check() const {
   Require(threads >= 1, "threads", threads, "at least 1");
 }
 
-ObjectiveSet ObjectivesOf(PointCloud source, PointCloud target, const PairOptions& options) {
+PreparedPair PrepareClouds(PointCloud source, PointCloud target, const PairOptions& options) {
   options.Check();
   CheckCloud(source, "source");
   CheckCloud(target, "target");
   DropInvalidPoints(&source);
   DropInvalidPoints(&target);
-  const PreparedPair scans = PreparePair(std::move(source), std::move(target),
-                                         NeedsOf(options.metrics, options.objective.matching),
-                                         options.preparation, options.threads);
-  return ObjectiveSet(scans, options.metrics, options.objective);
+  return PreparePair(std::move(source), std::move(target),
+                     NeedsOf(options.metrics, options.objective.matching), options.preparation,
+                     options.threads);
+}
+
+ObjectiveSet ObjectivesOf(PointCloud source, PointCloud target, const PairOptions& options) {
+  return {PrepareClouds(std::move(source), std::move(target), options), options.metrics,
+          options.objective};
 }
 
 }  // namespace icpscape

@@ -28,14 +28,17 @@ struct PairOptions {
   void Check() const;
 };
 
-/// The objectives of the metrics over two clouds, which are checked and prepared; what the three
-/// calls begin with. Points that no registration can use are dropped: those that are not finite or
-/// beyond 1000 km, and those at the origin. Normals are estimated and look to PointCloud::sensor;
-/// ones in the clouds are replaced.
+/// Two clouds, checked and prepared for the metrics; what the three calls begin with. Points that
+/// no registration can use are dropped: those that are not finite or beyond 1000 km, and those at
+/// the origin. Normals are estimated and look to PointCloud::sensor; ones in the clouds are
+/// replaced.
 ///
 /// Throws UsageError for options out of range, InputError where an array of a cloud has another
-/// length than x, or where edge and planar points are asked for and scan lines cannot be found, and
-/// ComputationError where a metric has no source point.
+/// length than x, or where edge and planar points are asked for and scan lines cannot be found.
+PreparedPair PrepareClouds(PointCloud source, PointCloud target, const PairOptions& options);
+
+/// The objectives of the metrics over two clouds, which are prepared as above. Throws
+/// ComputationError where a metric has no source point, and what PrepareClouds throws.
 ObjectiveSet ObjectivesOf(PointCloud source, PointCloud target, const PairOptions& options);
 
 }  // namespace icpscape

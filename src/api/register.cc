@@ -4,8 +4,6 @@
 #include <cmath>
 #include <utility>
 
-#include "icpscape/objective/joint_objective.h"
-
 namespace icpscape {
 
 RegisterOptions::RegisterOptions() {
@@ -13,18 +11,28 @@ RegisterOptions::RegisterOptions() {
   minimizer.min_step_rad = 1e-3 * M_PI / 180;
 }
 
+RegisterOptions RegisterOptions::Robust() {
+  RegisterOptions options;
+  options.preset = Preset::kRobust;
+  options.preparation.normals.num_neighbors = kRobustNormalNeighbors;
+  return options;
+}
+
 RegisterResult Register(PointCloud source, PointCloud target, const RegisterOptions& options) {
-  const ObjectiveSet set = ObjectivesOf(std::move(source), std::move(target), options);
-  const JointObjective objective(set.objectives(), options.weights);
   MinimizerOptions minimizer = options.minimizer;
   minimizer.threads = options.threads;
-  MinimizerSummary summary = Minimize(objective, options.T_initial, minimizer);
+  const Registration registration(PrepareClouds(std::move(source), std::move(target), options),
+                                  options.metrics, options.weights, options.objective,
+                                  options.preset, options.threads);
+  Registered registered = registration.Run(options.T_initial, minimizer);
+  MinimizerSummary& summary = registered.summary;
   VerdictOptions judge = options.verdict;
   judge.minimizer = minimizer;
   RegisterResult result;
-  result.verdict = JudgePose(objective, summary, judge);
+  result.verdict = JudgePose(registered.objective, summary, judge);
   result.T_target_source = options.T_initial;
   result.termination = summary.termination;
+  result.stages = std::move(registered.stages);
   result.message = std::move(summary.message);
   result.iterates = std::move(summary.iterates);
   if (result.Usable()) {

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "icpscape/api/pair.h"
+#include "icpscape/minimizer/registration.h"
 #include "icpscape/verdict/verdict.h"
 
 namespace icpscape {
@@ -14,7 +15,12 @@ namespace icpscape {
 struct RegisterOptions : PairOptions {
   /// By default point_to_plane; steps below 0.1 mm and 0.001 degrees end the search.
   RegisterOptions();
+  /// Preset::kRobust with the normals that go with it: for clouds that overlap in part, and starts
+  /// that are far off.
+  static RegisterOptions Robust();
 
+  /// With kRobust leave the gate, the loss and the re-association as they are.
+  Preset preset = Preset::kPaper;
   /// Several metrics are minimised together: cost = sum_k w_k cost_k. One positive weight for each
   /// metric, or none: then each is 1.
   std::vector<double> weights;
@@ -38,6 +44,8 @@ struct RegisterResult {
   /// minimum: see `termination`.
   bool Usable() const { return IsUsable(termination); }
 
+  /// Each loop of the preset, the last of which judges the pose; one under kPaper.
+  std::vector<Stage> stages;
   double cost = 0;     ///< At the pose, over the pairs that belong to it; see Register.
   double rmse = 0;     ///< sqrt(eps / n) there (m), eps as the paper prints it.
   long num_pairs = 0;  ///< Pairs there.

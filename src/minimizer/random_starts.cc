@@ -45,13 +45,12 @@ std::vector<SE3d> RandomStarts(const SE3d& T_reference, const Vec3& c,
   return starts;
 }
 
-std::vector<StartResult> RunRandomStarts(const JointObjective& objective, const SE3d& T_reference,
-                                         const RandomStartOptions& options,
+std::vector<StartResult> RunRandomStarts(const LoopFrom& loop, const SE3d& T_reference,
+                                         const Vec3& c, const RandomStartOptions& options,
                                          const std::function<void(int)>& progress) {
-  const Vec3 centroid = SourceCentroid(objective);
-  const std::vector<SE3d> starts = RandomStarts(T_reference, centroid, options);
+  const std::vector<SE3d> starts = RandomStarts(T_reference, c, options);
   const auto from_reference = [&](const SE3d& T) {
-    return DisplacementAt(centroid, T_reference.Inverse() * T);
+    return DisplacementAt(c, T_reference.Inverse() * T);
   };
   std::vector<StartResult> results(starts.size());
   MinimizerOptions minimizer = options.minimizer;
@@ -59,7 +58,7 @@ std::vector<StartResult> RunRandomStarts(const JointObjective& objective, const 
   std::mutex mutex;
   int done = 0;
   ParallelFor(starts.size(), options.minimizer.threads, [&](std::size_t i) {
-    const MinimizerSummary summary = Minimize(objective, starts[i], minimizer);
+    const MinimizerSummary summary = loop(starts[i], minimizer);
     StartResult& result = results[i];
     const Displacement start = from_reference(starts[i]);
     result.start_m = start.m;

@@ -39,10 +39,15 @@ struct StartResult {
 std::vector<SE3d> RandomStarts(const SE3d& T_reference, const Vec3& c,
                                const RandomStartOptions& options);
 
-/// Minimises from every start about the source's centroid, in parallel over starts; results in the
-/// order of RandomStarts. `progress` (if any) is called with the number done, one call at a time.
-std::vector<StartResult> RunRandomStarts(const JointObjective& objective, const SE3d& T_reference,
-                                         const RandomStartOptions& options,
+/// A closed loop from this start: Minimize, or Registration::Run.
+using LoopFrom =
+    std::function<MinimizerSummary(const SE3d& T_start, const MinimizerOptions& options)>;
+
+/// Runs the loop from every start about the point c of the source's frame, in parallel over starts,
+/// each on one thread; results in the order of RandomStarts. `progress` (if any) is called with the
+/// number done, one call at a time.
+std::vector<StartResult> RunRandomStarts(const LoopFrom& loop, const SE3d& T_reference,
+                                         const Vec3& c, const RandomStartOptions& options,
                                          const std::function<void(int)>& progress = nullptr);
 
 }  // namespace icpscape

@@ -125,6 +125,19 @@ TEST_F(Api, RegistersAsTheProgramDoesWithEveryKindOfOption) {
   ExpectSameRegistration(Register(*source_, *target_, options), Run("register", voxels));
 }
 
+TEST_F(Api, RegistersRobustlyAsTheProgramDoes) {
+  const auto folder = Run("register", {"--preset=robust"});
+  const RegisterResult result = Register(*source_, *target_, RegisterOptions::Robust());
+  ExpectSameRegistration(result, folder);
+  const auto stages = ReadCsv((folder / "stages.csv").string());
+  ASSERT_EQ(stages.size(), result.stages.size());
+  EXPECT_GT(stages.size(), 2U);
+  for (std::size_t i = 0; i < stages.size(); ++i) {
+    EXPECT_EQ(stages[i].at("first_iterate"), std::to_string(result.stages[i].first_iterate));
+    EXPECT_EQ(stages[i].at("max_distance_m"), Number(result.stages[i].max_distance_m));
+  }
+}
+
 TEST_F(Api, LandscapesAreThoseOfTheProgram) {
   LandscapeOptions options;
   options.curve.samples = 7;

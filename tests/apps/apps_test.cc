@@ -286,6 +286,24 @@ TEST_F(Apps, GroundTruthCheckWithoutAnAnswerIsNoFailure) {
   }
 }
 
+TEST_F(Apps, RobustPresetReachesTheMotionFromFarAndRefusesItsOwnFlags) {
+  const Outcome far = RunProgram(
+      "register", Files({"--preset=robust", "--starts=20", "--start_m=1", "--start_deg=15"}));
+  EXPECT_EQ(far.code, 0) << far.err;
+  EXPECT_THAT(far.out, HasSubstr("20 of 20 succeed"));
+  EXPECT_GE(ReadCsv(Path("out/stages.csv")).size(), 4U);
+  for (const char* flag : {"--max_distance_m=1", "--loss=huber", "--loss_scale_m=0.2",
+                           "--reassociation=every_evaluation"}) {
+    testing_support::ExpectRefusal(RunProgram("register", Files({"--preset=robust", flag})), 1,
+                                   "its default with --preset=robust");
+  }
+  testing_support::ExpectRefusal(
+      RunProgram("register", Files({"--preset=robust", "--metrics=edge_to_line"})), 1,
+      "edge or planar points");
+  testing_support::ExpectRefusal(RunProgram("register", Files({"--preset=fast"})), 1,
+                                 "paper, robust");
+}
+
 TEST_F(Apps, FlagfileWorks) {
   folder_.Write("flags", "--samples=5\n--metrics=symmetric\n");
   ASSERT_EQ(RunProgram("landscape", Files({"--flagfile=" + Path("flags")})).code, 0);

@@ -7,10 +7,21 @@
 
 #include "icpscape/matching/closest_point_matcher.h"
 #include "icpscape/objective/loss.h"
+#include "icpscape/objective/source_centroid.h"
 #include "tests/minimizer/room.h"
 
 namespace icpscape {
 namespace {
+
+// Of an objective, which must outlive it.
+std::vector<StartResult> RunStarts(const Objective& objective, const SE3d& T_reference,
+                                   const RandomStartOptions& options,
+                                   const std::function<void(int)>& progress = nullptr) {
+  const JointObjective joint(objective);
+  return RunRandomStarts([&](const SE3d& T_start,
+                             const MinimizerOptions& how) { return Minimize(joint, T_start, how); },
+                         T_reference, SourceCentroid(joint), options, progress);
+}
 
 using testing_support::AngleRad;
 using testing_support::DistanceM;
@@ -90,7 +101,7 @@ TEST(RandomStarts, ReportWhatBecameOfEachStart) {
   const SE3d reference = kMotion * SE3d::Exp((Vec6() << 0, 0, 0.01, 0.02, 0, 0).finished());
   std::vector<int> progress;
   const std::vector<StartResult> results =
-      RunRandomStarts(objective, reference, options, [&](int done) { progress.push_back(done); });
+      RunStarts(objective, reference, options, [&](int done) { progress.push_back(done); });
   EXPECT_EQ(progress, (std::vector<int>{1, 2, 3, 4}));
   const std::vector<SE3d> starts = RandomStarts(reference, CentroidOf(Room().source), options);
   ASSERT_EQ(results.size(), starts.size());
@@ -117,7 +128,7 @@ TEST(RandomStarts, SucceedInARoom) {
   RandomStartOptions options;
   options.count = 20;
   options.minimizer.threads = 2;
-  const std::vector<StartResult> results = RunRandomStarts(objective, kMotion, options);
+  const std::vector<StartResult> results = RunStarts(objective, kMotion, options);
   ASSERT_EQ(results.size(), 20U);
   for (const StartResult& result : results) {
     EXPECT_TRUE(result.success);
@@ -137,7 +148,7 @@ TEST(RandomStarts, SucceedWithinMetresAndRadiansBoth) {
   const auto succeed = [&](double off_m, double off_deg) {
     const SE3d reference =
         kMotion * SE3d::Exp((Vec6() << 0, 0, off_deg * M_PI / 180, off_m, 0, 0).finished());
-    const std::vector<StartResult> results = RunRandomStarts(objective, reference, options);
+    const std::vector<StartResult> results = RunStarts(objective, reference, options);
     EXPECT_EQ(results[0].success, results[1].success);
     return results[0].success;
   };
@@ -155,14 +166,14 @@ TEST(RandomStarts, FailWithoutAUsableResult) {
   options.count = 2;
   options.translation_m = 0.01;
   options.rotation_rad = 0.001;
-  for (const StartResult& result : RunRandomStarts(flat, kMotion, options)) {
+  for (const StartResult& result : RunStarts(flat, kMotion, options)) {
     EXPECT_EQ(result.termination, Termination::kFailure);
     EXPECT_LT(result.end_m, 0.05);
     EXPECT_FALSE(result.success);
   }
   const ClosestPointMatcher gated(Room().source, Room().target, {1e-9});
   for (const StartResult& result :
-       RunRandomStarts(Objective("point_to_plane", gated), kMotion, options)) {
+       RunStarts(Objective("point_to_plane", gated), kMotion, options)) {
     EXPECT_EQ(result.termination, Termination::kNoCorrespondences);
     EXPECT_TRUE(std::isnan(result.end_m) && std::isnan(result.end_rad));
     EXPECT_FALSE(result.success);
