@@ -12,6 +12,7 @@
 #include "icpscape/common/error.h"
 #include "icpscape/common/text.h"
 #include "icpscape/io/kitti.h"
+#include "icpscape/io/natural_order.h"
 #include "icpscape/io/point_files.h"
 
 namespace icpscape {
@@ -21,6 +22,47 @@ constexpr double kLargestFrame = 1e9;
 
 double NumberOf(const std::filesystem::path& scan) { return ParseNumber(scan.stem().string()); }
 
+std::vector<std::size_t> CountUp(std::size_t count) {
+  std::vector<std::size_t> lines(count);
+  std::iota(lines.begin(), lines.end(), std::size_t{0});
+  return lines;
+}
+
+// The numbers that the names are behind their first `letters` letters, which are the same; nothing
+// where one of them is none.
+std::vector<double> NumbersBehind(std::size_t letters,
+                                  const std::vector<std::filesystem::path>& scans) {
+  const std::string first = scans.front().stem().string();
+  std::vector<double> numbers;
+  for (const std::filesystem::path& scan : scans) {
+    const std::string name = scan.stem().string();
+    if (name.size() <= letters || name.compare(0, letters, first, 0, letters) != 0 ||
+        !std::isfinite(ParseNumber(name.substr(letters)))) {
+      return {};
+    }
+    numbers.push_back(ParseNumber(name.substr(letters)));
+  }
+  return numbers;
+}
+
+// By number where all names are numbers ("-1.5", "10"), or the same letters and a number ("t9.5",
+// "t10"); else, and among equal numbers, in natural order.
+void Sort(std::vector<std::filesystem::path>* scans) {
+  std::sort(scans->begin(), scans->end(), [](const auto& a, const auto& b) {
+    return ComesBefore(a.stem().string(), b.stem().string());
+  });
+  std::vector<double> numbers = NumbersBehind(0, *scans);
+  if (numbers.empty()) {
+    numbers = NumbersBehind(scans->front().stem().string().find_first_of("0123456789"), *scans);
+  }
+  std::vector<std::size_t> order = CountUp(numbers.size());
+  std::stable_sort(order.begin(), order.end(),
+                   [&](std::size_t a, std::size_t b) { return numbers[a] < numbers[b]; });
+  const std::vector<std::filesystem::path> natural = *scans;
+  std::transform(order.begin(), order.end(), scans->begin(),
+                 [&](std::size_t i) { return natural[i]; });
+}
+
 // The files that ReadPointFile takes, in order.
 std::vector<std::filesystem::path> ScansIn(const std::filesystem::path& folder) {
   std::error_code error;
@@ -28,6 +70,9 @@ std::vector<std::filesystem::path> ScansIn(const std::filesystem::path& folder) 
   std::set<std::string> kinds;
   for (const auto& entry : std::filesystem::directory_iterator(folder, error)) {
     const std::string kind = entry.path().extension().string();
+    if (entry.path().filename().string()[0] == '.') {
+      continue;  // Hidden, as files are that are not yet whole; see WriteThenRename.
+    }
     if (kind == ".bin" || kind == ".pcd" || kind == ".ply") {
       scans.push_back(entry.path());
       kinds.insert(kind);
@@ -40,11 +85,7 @@ std::vector<std::filesystem::path> ScansIn(const std::filesystem::path& folder) 
     throw InputError(folder.string() + ": holds " + Join({kinds.begin(), kinds.end()}, " and ") +
                      " files; expected scans of one kind.");
   }
-  const bool are_numbers = std::all_of(
-      scans.begin(), scans.end(), [](const auto& scan) { return std::isfinite(NumberOf(scan)); });
-  std::sort(scans.begin(), scans.end(), [&](const auto& a, const auto& b) {
-    return are_numbers && NumberOf(a) != NumberOf(b) ? NumberOf(a) < NumberOf(b) : a < b;
-  });
+  Sort(&scans);
   return scans;
 }
 
@@ -77,12 +118,6 @@ void SetTimes(const std::filesystem::path& file, const std::vector<double>& time
                                                       : std::numeric_limits<double>::quiet_NaN());
     }
   }
-}
-
-std::vector<std::size_t> CountUp(std::size_t count) {
-  std::vector<std::size_t> lines(count);
-  std::iota(lines.begin(), lines.end(), std::size_t{0});
-  return lines;
 }
 
 // The number that a scan of a raw drive has by its name, which is its line of timestamps.txt: some

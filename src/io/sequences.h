@@ -17,11 +17,12 @@ namespace icpscape {
 /// there. Throws InputError where a file is malformed or ROOT/sequences/SS is no folder.
 ScanSequence OpenKittiSequence(const std::filesystem::path& root, const std::string& sequence);
 
-/// A folder of .bin, .pcd or .ply files, by number where all names are numbers, else by name; or a
-/// raw drive of KITTI's, with velodyne_points/data and, where it is there,
-/// velodyne_points/timestamps.txt. Frames count the scans that are there from 0; the time of a raw
-/// scan is the line of its number (drives can lack scans). Throws InputError where there is no
-/// scan, more than one kind of file, or a malformed time.
+/// A folder of .bin, .pcd or .ply files, by number where all names are numbers, else in natural
+/// order (see ComesBefore); hidden files, which begin with a dot, are no scans. Or a raw drive of
+/// KITTI's, with velodyne_points/data and, where it is there, velodyne_points/timestamps.txt.
+/// Frames count the scans that are there from 0; the time of a raw scan is the line of its number
+/// (drives can lack scans). Throws InputError where there is no scan, more than one kind of file,
+/// or a malformed time.
 ScanSequence OpenScanFolder(const std::filesystem::path& folder);
 
 /// Two files: frame 0 is the target, frame 1 the source. The files are looked at when they are

@@ -200,6 +200,27 @@ TEST_F(OdometryApp, TakesAFolderOfScans) {
             0.03);
 }
 
+// Sorted byte by byte, 10 to 12 come before 2, and the path is more than twice as long.
+TEST_F(OdometryApp, TakesNamesInNaturalOrder) {
+  std::filesystem::create_directories(Path("drive"));
+  Trajectory truth;
+  for (std::size_t i = 0; i < kScans; ++i) {
+    WritePly(Path("drive/scan_" + std::to_string(i + 1) + ".ply"), TheDrive().scans[i]);
+    truth.T_world_body.push_back(TheDrive().T_world_lidar[i]);
+    truth.times_s.push_back(static_cast<double>(i));
+  }
+  folder_.Write("drive/.1234.scan_3.ply", "not yet whole");
+  WriteTumTrajectory(Path("truth.txt"), truth);
+  const Outcome outcome = RunProgram(
+      "odometry",
+      {"--scans=" + Path("drive"), "--ground_truth=" + Path("truth.txt"), "--out=" + Path("out")});
+  ASSERT_EQ(outcome.code, 0) << outcome.err;
+  EXPECT_THAT(outcome.out,
+              AllOf(HasSubstr("12 scans, scan_1.ply to scan_12.ply"), HasSubstr("path: 8.8 m")));
+  EXPECT_LT(nlohmann::json::parse(ReadFile(Path("out/manifest.json")))["results"]["end_off_m"],
+            0.05);
+}
+
 TEST_F(OdometryApp, TakesFoldersOfAnyName) {
   std::filesystem::create_directories(Path("a drive;\nwith = \"signs\""));
   WritePly(Path("a drive;\nwith = \"signs\"/0.ply"), TheDrive().scans[0]);

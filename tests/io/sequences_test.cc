@@ -164,6 +164,40 @@ TEST_F(ScanSequenceTest, OrdersAFolderByTimeStampsAndByName) {
               ElementsAre("7.bin", "scan_a.bin", "scan_b.bin", "scan_c.bin"));
 }
 
+TEST_F(ScanSequenceTest, OrdersAFolderNaturally) {
+  WriteScans("unpadded", {"scan_10.pcd", "scan_2.pcd", "scan_1.pcd", "scan_11.pcd"});
+  EXPECT_THAT(NamesOf(OpenScanFolder(Path("unpadded"))),
+              ElementsAre("scan_1.pcd", "scan_2.pcd", "scan_10.pcd", "scan_11.pcd"));
+  WriteScans("numbers", {"run2_9.ply", "Run10_1.ply", "run2_10.ply", "run2.ply"});
+  EXPECT_THAT(NamesOf(OpenScanFolder(Path("numbers"))),
+              ElementsAre("run2.ply", "run2_9.ply", "run2_10.ply", "Run10_1.ply"));
+}
+
+// Stamps need not have equally many digits behind their point, nor be without letters.
+TEST_F(ScanSequenceTest, OrdersAFolderByNumbersBehindLetters) {
+  WriteScans("stamped",
+             {"lidar_1317617736.05.ply", "lidar_1317617735.9.ply", "lidar_1317617735.85.ply"});
+  EXPECT_THAT(
+      NamesOf(OpenScanFolder(Path("stamped"))),
+      ElementsAre("lidar_1317617735.85.ply", "lidar_1317617735.9.ply", "lidar_1317617736.05.ply"));
+  WriteScans("negative", {"-1.5.ply", "-2.ply", "1.ply", "0.5.ply"});
+  EXPECT_THAT(NamesOf(OpenScanFolder(Path("negative"))),
+              ElementsAre("-2.ply", "-1.5.ply", "0.5.ply", "1.ply"));
+  WriteScans("equal", {"010.ply", "10.ply", "9.ply", "011.ply"});
+  EXPECT_THAT(NamesOf(OpenScanFolder(Path("equal"))),
+              ElementsAre("9.ply", "010.ply", "10.ply", "011.ply"));
+}
+
+// An unfinished file of ours, and one of a Mac's.
+TEST_F(ScanSequenceTest, PassesOverHiddenFiles) {
+  WriteScans("drive", {"0.bin", "1.bin", ".1234.2.bin", "._1.bin", "._1.pcd"});
+  EXPECT_THAT(NamesOf(OpenScanFolder(Path("drive"))), ElementsAre("0.bin", "1.bin"));
+  WriteScans("hidden", {".0.bin"});
+  EXPECT_THAT(FolderMessage("hidden"), HasSubstr("hidden: no scan"));
+  WriteScans("raw/velodyne_points/data", {"0000000000.bin", ".77.0000000001.bin"});
+  EXPECT_THAT(NamesOf(OpenScanFolder(Path("raw"))), ElementsAre("0000000000.bin"));
+}
+
 TEST_F(ScanSequenceTest, TakesARangeOfAFolder) {
   WriteScans("drive", {"10.bin", "20.bin", "30.bin"});
   const ScanSequence part = OpenScanFolder(Path("drive")).Frames({1, 2});  // Counted, not named.
