@@ -113,6 +113,8 @@ NamedTrajectory ReportOdometry(const ResumableOdometry& odometry, Run* run) {
     WritePly(run->File("map.ply"), odometry.map()->Cloud(SE3d()));
   }
   ReportDoubts(odometry.records(), run->manifest());
+  std::cout << "times: " << sequence.TimesText() << std::endl;
+  run->manifest()->SetResult("times", sequence.TimesText());
   PrintPath(named.pair.estimate);
   ReportSpeed(odometry.records(), run->manifest());
   return named;

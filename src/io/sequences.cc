@@ -3,8 +3,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
-#include <fstream>
 #include <limits>
 #include <numeric>
 #include <set>
@@ -14,6 +12,7 @@
 #include "icpscape/io/kitti.h"
 #include "icpscape/io/natural_order.h"
 #include "icpscape/io/point_files.h"
+#include "icpscape/io/scan_times.h"
 
 namespace icpscape {
 namespace {
@@ -89,27 +88,28 @@ std::vector<std::filesystem::path> ScansIn(const std::filesystem::path& folder) 
   return scans;
 }
 
-// "12.5", or KITTI's "2011-09-26 14:14:10.911685885" as seconds since the month began.
-double ParseTime(const std::string& text) {
-  int year = 0, month = 0, day = 0, hour = 0, minute = 0, length = 0;
-  if (std::sscanf(text.c_str(), "%d-%d-%d %d:%d:%n", &year, &month, &day, &hour, &minute,
-                  &length) == 5) {
-    return ((day * 24.0 + hour) * 60 + minute) * 60 +
-           ParseNumber(text.substr(static_cast<std::size_t>(length)));
-  }
-  return ParseNumber(text);
-}
-
 Scan FileOf(const std::filesystem::path& path) {
   return {path.filename().string(), path,
           [path](DroppedPoints* dropped) { return ReadPointFile(path, dropped); }};
 }
 
-// Line `lines[i]` of the file's times is that of scan i; made up where there is no such file.
+void SetTimes(ScanTimes times, ScanSequence* sequence) {
+  sequence->times_s = std::move(times.times_s);
+  sequence->times_are_measured = times.are_measured;
+  sequence->times_from = std::move(times.from);
+}
+
+// Line `lines[i]` of a file of times is that of scan i. Without times, lines count periods.
 void SetTimes(const std::filesystem::path& file, const std::vector<double>& times,
               const std::vector<std::size_t>& lines, ScanSequence* sequence) {
   sequence->times_file = file;
   sequence->times_are_measured = !times.empty();
+  const bool is_even = lines.empty() || lines.back() - lines.front() + 1 == lines.size();
+  sequence->times_from = is_even ? kNoTimes : kTimesByNumber;
+  if (!times.empty()) {
+    sequence->times_from = file.filename().string();
+    sequence->inputs.push_back(file);
+  }
   for (const std::size_t line : lines) {
     if (times.empty()) {
       sequence->times_s.push_back(static_cast<double>(line) * kScanPeriodS);
@@ -118,6 +118,21 @@ void SetTimes(const std::filesystem::path& file, const std::vector<double>& time
                                                       : std::numeric_limits<double>::quiet_NaN());
     }
   }
+}
+
+// Of a folder of scans: in a file beside them, or in their names.
+void SetTimesOfFolder(const std::filesystem::path& folder,
+                      const std::vector<std::filesystem::path>& files, ScanSequence* sequence) {
+  for (const char* name : {"timestamps.txt", "times.txt"}) {
+    if (std::filesystem::exists(folder / name)) {
+      SetTimesFromFile(folder / name, sequence);
+      return;
+    }
+  }
+  std::vector<std::string> names(files.size());
+  std::transform(files.begin(), files.end(), names.begin(),
+                 [](const auto& file) { return file.stem().string(); });
+  SetTimes(TimesFromNames(names), sequence);
 }
 
 // The number that a scan of a raw drive has by its name, which is its line of timestamps.txt: some
@@ -148,23 +163,12 @@ int LastFrame(const KittiFiles& kitti) {
 
 }  // namespace
 
-std::vector<double> ReadTimes(const std::filesystem::path& path) {
-  std::ifstream in(path);
-  std::vector<double> times;
-  double last = -std::numeric_limits<double>::infinity();
-  for (std::string line; std::getline(in, line);) {
-    line.erase(line.find_last_not_of(" \t\r") + 1);
-    times.push_back(ParseTime(line));
-    if (line.empty()) {
-      continue;
-    }
-    if (!std::isfinite(times.back()) || !(times.back() > last)) {
-      throw InputError(path.string() + ":" + std::to_string(times.size()) + ": \"" + line +
-                       "\"; expected a time after the one before.");
-    }
-    last = times.back();
-  }
-  return times;
+void SetTimesFromFile(const std::filesystem::path& path, ScanSequence* sequence) {
+  sequence->times_s = ReadTimesOfScans(path, sequence->scans.size());
+  sequence->times_are_measured = true;
+  sequence->times_from = path.filename().string();
+  sequence->times_file = path;
+  sequence->inputs.push_back(path);
 }
 
 ScanSequence OpenKittiSequence(const std::filesystem::path& root, const std::string& name) {
@@ -209,7 +213,7 @@ ScanSequence OpenScanFolder(const std::filesystem::path& folder) {
   const std::vector<std::filesystem::path> files = ScansIn(is_raw ? raw / "data" : folder);
   std::transform(files.begin(), files.end(), std::back_inserter(sequence.scans), FileOf);
   if (!is_raw) {
-    SetTimes("", {}, CountUp(files.size()), &sequence);
+    SetTimesOfFolder(folder, files, &sequence);
     return sequence;
   }
   std::vector<std::size_t> lines(files.size());
@@ -228,7 +232,7 @@ ScanSequence OpenTwoScans(const std::filesystem::path& source,
   ScanSequence sequence;
   sequence.title = source.filename().string() + " to " + target.filename().string();
   sequence.scans = {FileOf(target), FileOf(source)};
-  SetTimes("", {}, CountUp(2), &sequence);
+  SetTimes(EvenTimes(2), &sequence);
   return sequence;
 }
 

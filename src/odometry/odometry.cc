@@ -155,12 +155,17 @@ PreparedScan Odometry::PrepareOrEmpty(PointCloud scan) const {
   }
 }
 
-FrameResult Odometry::Add(PointCloud scan) {
+SE3d Odometry::PredictedMotion(std::optional<double> time_s) const {
+  return options_.constant_velocity ? motion_.Predict(time_s) : SE3d();
+}
+
+FrameResult Odometry::Add(PointCloud scan, std::optional<double> time_s) {
+  motion_.Check(time_s);
   PreparedScan current = PrepareOrEmpty(std::move(scan));
   FrameResult result;
   result.points = current.cloud().size();
   if (last_) {
-    const SE3d predicted_motion = options_.constant_velocity ? motion_ : SE3d();
+    const SE3d predicted_motion = PredictedMotion(time_s);
     result.gate_m = ObjectiveOptions().matching.max_distance_m;
     result.motion = predicted_motion;
     SE3d motion = predicted_motion;  // In kTwoStage with the map's correction.
@@ -201,17 +206,18 @@ FrameResult Odometry::Add(PointCloud scan) {
     }
     result.T_world_lidar = (T_world_last_ * motion).Normalized();
   }
-  Finish(std::move(current), result);
+  Finish(std::move(current), result, time_s);
   return result;
 }
 
-void Odometry::Replay(PointCloud scan, const FrameResult& result) {
-  Finish(PrepareOrEmpty(std::move(scan)), result);
+void Odometry::Replay(PointCloud scan, const FrameResult& result, std::optional<double> time_s) {
+  motion_.Check(time_s);
+  Finish(PrepareOrEmpty(std::move(scan)), result, time_s);
 }
 
-void Odometry::Finish(PreparedScan scan, const FrameResult& result) {
+void Odometry::Finish(PreparedScan scan, const FrameResult& result, std::optional<double> time_s) {
   if (options_.adaptive_gate_m > 0 && last_) {
-    gate_.Add(options_.constant_velocity ? motion_ : SE3d(), result.motion);
+    gate_.Add(PredictedMotion(time_s), result.motion);
   }
   // An empty scan is nothing to register to: the next begins anew.
   const bool has_pose = !last_ || last_->cloud().empty() || result.registered;
@@ -227,7 +233,7 @@ void Odometry::Finish(PreparedScan scan, const FrameResult& result) {
     T_last_previous_ = T_last_previous_ * result.motion;
   }
   T_world_last_ = result.T_world_lidar;
-  motion_ = result.motion;
+  motion_.Add(result.motion, time_s);
   ++size_;
 }
 

@@ -12,6 +12,7 @@
 #include "icpscape/objective/objective_set.h"
 #include "icpscape/odometry/adaptive_gate.h"
 #include "icpscape/odometry/local_map.h"
+#include "icpscape/odometry/motion_model.h"
 #include "icpscape/verdict/verdict.h"
 
 namespace icpscape {
@@ -40,7 +41,8 @@ struct OdometryOptions {
   /// Tolerances of the verdicts; the rest of it is as the loop has it.
   VerdictOptions verdict;
   int map_every = 10;  ///< kTwoStage: a mapping step every so many scans.
-  /// The predicted pose is the motion of the scan before; else the identity.
+  /// The predicted pose is the motion of the scan before, for the time since then (see
+  /// MotionModel); else the identity.
   bool constant_velocity = true;
   /// If positive: the gate follows from the errors of the predicted poses, and this is the assumed
   /// error of the first (m); see AdaptiveGate.
@@ -87,13 +89,16 @@ class Odometry {
   explicit Odometry(OdometryOptions options);
   ~Odometry();
 
-  /// Registers the next scan. Throws InputError where the first scan cannot be prepared (see
-  /// Prepare), since then no other will be. A later one that cannot counts as empty.
-  FrameResult Add(PointCloud scan);
+  /// Registers the next scan, which was taken at `time_s`; the time of scans that have none is
+  /// taken to pass evenly. Throws InputError where the first scan cannot be prepared (see Prepare),
+  /// since then no other will be. A later one that cannot counts as empty. Throws UsageError where
+  /// the time is not after that of the scan before.
+  FrameResult Add(PointCloud scan, std::optional<double> time_s = std::nullopt);
 
   /// Takes over what Add returned for the next scan in an earlier run, without registering it:
   /// afterwards the state is bit for bit the one after Add.
-  void Replay(PointCloud scan, const FrameResult& result);
+  void Replay(PointCloud scan, const FrameResult& result,
+              std::optional<double> time_s = std::nullopt);
 
   /// Number of scans so far.
   int size() const { return size_; }
@@ -110,7 +115,8 @@ class Odometry {
                              FrameResult* result) const;
   ObjectiveSetOptions ObjectiveOptions() const;
   bool MapsNow() const;
-  void Finish(PreparedScan scan, const FrameResult& result);
+  SE3d PredictedMotion(std::optional<double> time_s) const;
+  void Finish(PreparedScan scan, const FrameResult& result, std::optional<double> time_s);
 
   OdometryOptions options_;
   unsigned needs_ = 0;
@@ -118,7 +124,7 @@ class Odometry {
   std::optional<PreparedScan> last_;  // The last that was registered.
   SE3d T_last_previous_;              // From it to the last of all.
   SE3d T_world_last_;                 // Of the last of all, as the next.
-  SE3d motion_;
+  MotionModel motion_;
   AdaptiveGate gate_;
   LocalMap map_;
 };

@@ -78,7 +78,7 @@ void ResumableOdometry::ReplayScan(std::size_t i) {
     throw InputError(sequence_.scans[i].Place() +
                      ": is not the scan of the journal; expected it unchanged, or a restart.");
   }
-  NamingTheScan(i, [&] { odometry_.Replay(std::move(scan), record.result); });
+  NamingTheScan(i, [&] { odometry_.Replay(std::move(scan), record.result, sequence_.times_s[i]); });
   records_.push_back(record);
 }
 
@@ -89,7 +89,7 @@ void ResumableOdometry::RegisterScan(std::size_t i) {
   record.scan_sha256 = Sha256OfScan(sequence_.scans[i].file, scan);
   record.read_s = SecondsSince(start);
   const Clock::time_point read = Clock::now();
-  NamingTheScan(i, [&] { record.result = odometry_.Add(std::move(scan)); });
+  NamingTheScan(i, [&] { record.result = odometry_.Add(std::move(scan), sequence_.times_s[i]); });
   record.odometry_s = SecondsSince(read);
   journal_.Append(FormatFrameRecord(record));
   records_.push_back(record);

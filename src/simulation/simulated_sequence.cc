@@ -47,6 +47,7 @@ ScanSequence SimulatedSequence(const std::string& scene, std::uint64_t seed,
   sequence.place = scene;
   sequence.truth_is_exact = true;
   sequence.times_are_measured = true;
+  sequence.times_from = "simulation";
   std::function<World()> make_world;
   double first_time_s = 0;
   if (scene == kTown) {

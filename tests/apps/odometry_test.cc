@@ -18,6 +18,7 @@ namespace {
 using testing::AllOf;
 using testing::HasSubstr;
 using testing::Not;
+using testing_support::Bytes;
 using testing_support::DistanceM;
 using testing_support::ExpectRefusal;
 using testing_support::kProgram;
@@ -161,6 +162,8 @@ TEST(OdometryCommandLine, IsRefusedWhereItIsWrong) {
          "adaptive gate rejects pairs");
   refuse({"--max_iterations=0"}, "--max_iterations");
   refuse({"stray"}, "stray argument \"stray\"");
+  ExpectRefusal(RunProgram("odometry", {"--scene=town", "--timestamps=a.txt", "--out=" + out}), 1,
+                "--timestamps=a.txt: expected --scans or --kitti_root with it");
   ExpectRefusal(RunProgram("odometry", {}), 1, "expected one of --scene=NAME");
   EXPECT_FALSE(std::filesystem::exists(out));
 }
@@ -190,7 +193,8 @@ TEST_F(OdometryApp, TakesAFolderOfScans) {
       RunProgram("odometry", {"--scans=" + Path("drive"), "--ground_truth=" + Path("truth.txt"),
                               "--frames=1:3", "--reverse", "--out=" + Path("out")});
   ASSERT_EQ(outcome.code, 0) << outcome.err;
-  EXPECT_THAT(outcome.out, HasSubstr("drive reversed: 3 scans, 11.ply to 9.ply, no times: 10 Hz"));
+  EXPECT_THAT(outcome.out, AllOf(HasSubstr("drive reversed: 3 scans, 11.ply to 9.ply\n"),
+                                 HasSubstr("times: none, taken as 10 Hz\n")));
   const std::vector<SE3d> poses = ReadTrajectory(Path("out/trajectory_kitti.txt")).T_world_body;
   ASSERT_EQ(poses.size(), 3U);  // Without a camera the poses are the lidar's.
   const SE3d expected = TheDrive().T_world_lidar[3].Inverse() * TheDrive().T_world_lidar[1];
@@ -219,6 +223,50 @@ TEST_F(OdometryApp, TakesNamesInNaturalOrder) {
               AllOf(HasSubstr("12 scans, scan_1.ply to scan_12.ply"), HasSubstr("path: 8.8 m")));
   EXPECT_LT(nlohmann::json::parse(ReadFile(Path("out/manifest.json")))["results"]["end_off_m"],
             0.05);
+}
+
+// Scans 4 to 7 are missing, as in KITTI's raw drive 2011_09_26 0009.
+TEST_F(OdometryApp, SaysWhereTimesWereTakenFrom) {
+  std::string lines, stamps;
+  for (int i = 0; i < kScans; ++i) {
+    const std::string second = std::to_string(30 + i / 10) + "." + std::to_string(i % 10);
+    if (i >= 4 && i < 8) {
+      lines += "\n";
+      continue;
+    }
+    lines += "2011-09-26 13:02:" + second + "00000000\n";
+    stamps += second + " 0 0 0 0 0 0 1\n";
+    folder_.Write("raw/velodyne_points/data/0000" + ScanName(i),
+                  Bytes(TheDrive().scans[static_cast<std::size_t>(i)]));
+  }
+  folder_.Write("raw/velodyne_points/timestamps.txt", lines);
+  folder_.Write("tum.txt", stamps);
+  const auto run = [&](std::vector<std::string> more) {
+    more.insert(more.begin(), {"--scans=" + Path("raw"), "--out=" + Path("out")});
+    return RunProgram("odometry", more);
+  };
+  Outcome outcome = run({});
+  ASSERT_EQ(outcome.code, 0) << outcome.err;
+  EXPECT_THAT(outcome.out, AllOf(HasSubstr("times: timestamps.txt, 1 gap of 0.5 s\n"),
+                                 HasSubstr("path: 8.8 m")));
+  EXPECT_EQ(nlohmann::json::parse(ReadFile(Path("out/manifest.json")))["results"]["times"],
+            "timestamps.txt, 1 gap of 0.5 s");
+  const SE3d end = ReadTrajectory(Path("out/trajectory_tum.txt")).T_world_body.back();
+  EXPECT_LT(DistanceM(end, TheDrive().T_world_lidar.back()), 0.05);
+  // Results depend on the times: with others the journal is another's.
+  ExpectRefusal(run({"--timestamps=" + Path("tum.txt")}), 2, "times=");
+  outcome = run({"--timestamps=" + Path("tum.txt"), "--restart"});
+  ASSERT_EQ(outcome.code, 0) << outcome.err;
+  EXPECT_THAT(outcome.out, HasSubstr("times: tum.txt, 1 gap of 0.5 s\n"));
+  EXPECT_EQ(ReadTrajectory(Path("out/trajectory_tum.txt")).times_s[4], 30.8);
+  folder_.Write("tum.txt", stamps + "99\n");
+  ExpectRefusal(run({"--timestamps=" + Path("tum.txt")}), 2,
+                "tum.txt: 9 times; expected one for each of the 8 scans.");
+  // Without a file the numbers of a raw drive's scans tell as much.
+  std::filesystem::remove(Path("raw/velodyne_points/timestamps.txt"));
+  outcome = run({"--restart"});
+  EXPECT_THAT(outcome.out,
+              HasSubstr("times: numbers of the scans, taken as 10 Hz, 1 gap of 0.5 s\n"));
 }
 
 TEST_F(OdometryApp, TakesFoldersOfAnyName) {

@@ -15,10 +15,9 @@ struct SimulatedDrive {
   std::vector<SE3d> T_world_lidar;  ///< The truth; the world is the first scan's frame.
 };
 
-/// `count` scans, 0.8 m apart on a bend of 1 degree a scan, by a lidar with a firing every degree.
-inline SimulatedDrive SimulateTownDrive(int count) {
+/// `count` scans, `motion` apart, by a lidar with a firing every degree.
+inline SimulatedDrive SimulateDrive(const SE3d& motion, int count) {
   std::vector<SE3d> poses(1);
-  const SE3d motion = SE3d::Exp((Vec6() << 0, 0, M_PI / 180, 0.8, 0, 0).finished());
   for (int i = 1; i < 40; ++i) {  // The town is built along a route that is long enough for one.
     poses.push_back(poses.back() * motion);
   }
@@ -33,6 +32,11 @@ inline SimulatedDrive SimulateTownDrive(int count) {
     result.T_world_lidar.push_back(drive.T_world_lidar[0].Inverse() * T);
   }
   return result;
+}
+
+/// The same, 0.8 m apart on a bend of 1 degree a scan.
+inline SimulatedDrive SimulateTownDrive(int count) {
+  return SimulateDrive(SE3d::Exp((Vec6() << 0, 0, M_PI / 180, 0.8, 0, 0).finished()), count);
 }
 
 /// Eight scans, simulated once.
