@@ -21,6 +21,8 @@ struct Scan {
   std::filesystem::path file;  ///< Empty where the scan is simulated.
   /// Says how many points were dropped. Throws InputError.
   std::function<PointCloud(DroppedPoints*)> read;
+  std::filesystem::path times_file =
+      {};  ///< Of the times of its points; empty where `file` has all.
 
   /// For messages: the path of the file, or the name.
   std::string Place() const { return file.empty() ? name : file.string(); }

@@ -93,6 +93,21 @@ Scan FileOf(const std::filesystem::path& path) {
           [path](DroppedPoints* dropped) { return ReadPointFile(path, dropped); }};
 }
 
+// With the times of its points where there is a file of them.
+Scan ScanOf(const KittiFiles& kitti, int frame) {
+  Scan scan = FileOf(kitti.Scan(frame));
+  const std::filesystem::path times = kitti.PointTimes(frame);
+  if (std::filesystem::exists(times)) {
+    scan.times_file = times;
+    scan.read = [read = scan.read, times](DroppedPoints* dropped) {
+      PointCloud cloud = read(dropped);
+      ReadPointTimes(times, &cloud);
+      return cloud;
+    };
+  }
+  return scan;
+}
+
 void SetTimes(ScanTimes times, ScanSequence* sequence) {
   sequence->times_s = std::move(times.times_s);
   sequence->times_are_measured = times.are_measured;
@@ -180,7 +195,7 @@ ScanSequence OpenKittiSequence(const std::filesystem::path& root, const std::str
   sequence.place = kitti.Scan(0).parent_path();
   const int last = LastFrame(kitti);
   for (int frame = 0; frame <= last; ++frame) {
-    sequence.scans.push_back(FileOf(kitti.Scan(frame)));
+    sequence.scans.push_back(ScanOf(kitti, frame));
   }
   SetTimes(kitti.Times(), ReadTimes(kitti.Times()), CountUp(sequence.scans.size()), &sequence);
   if (!std::filesystem::exists(kitti.Calibration())) {

@@ -14,7 +14,8 @@ namespace icpscape {
 ///   ROOT/sequences/SS/velodyne/NNNNNN.bin, ROOT/sequences/SS/calib.txt, ROOT/poses/SS.txt.
 /// Frames are the numbers of the scans, up to the last one that is there; scans between may be
 /// missing until they are read. Times, poses and calibration come from their files where those are
-/// there. Throws InputError where a file is malformed or ROOT/sequences/SS is no folder.
+/// there, and the times of a scan's points from times/NNNNNN.time. Throws InputError where a file
+/// is malformed or ROOT/sequences/SS is no folder.
 ScanSequence OpenKittiSequence(const std::filesystem::path& root, const std::string& sequence);
 
 /// A folder of .bin, .pcd or .ply files, by number where all names are numbers, else in natural
