@@ -22,6 +22,15 @@ class MotionModel {
     return MotionDuring(Since(time_s), motion_, span_s_);
   }
 
+  /// The last motion, and the seconds that it took; NaN where they are not known.
+  const SE3d& motion() const { return motion_; }
+  double span_s() const { return span_s_; }
+
+  /// Seconds since the last scan; NaN where they are not known.
+  double Since(std::optional<double> time_s) const {
+    return time_s && time_s_ ? *time_s - *time_s_ : std::numeric_limits<double>::quiet_NaN();
+  }
+
   /// Throws UsageError unless the time, where it is known, comes after the last one.
   void Check(std::optional<double> time_s) const {
     if (time_s && time_s_ && !(*time_s > *time_s_)) {
@@ -38,11 +47,6 @@ class MotionModel {
   }
 
  private:
-  // Seconds since the last scan; NaN where they are not known.
-  double Since(std::optional<double> time_s) const {
-    return time_s && time_s_ ? *time_s - *time_s_ : std::numeric_limits<double>::quiet_NaN();
-  }
-
   SE3d motion_;
   double span_s_ = std::numeric_limits<double>::quiet_NaN();  // Of motion_.
   std::optional<double> time_s_;                              // Of the last scan.

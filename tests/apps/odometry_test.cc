@@ -18,7 +18,6 @@ namespace {
 using testing::AllOf;
 using testing::HasSubstr;
 using testing::Not;
-using testing_support::Bytes;
 using testing_support::DistanceM;
 using testing_support::ExpectRefusal;
 using testing_support::kProgram;
@@ -148,6 +147,7 @@ TEST(OdometryCommandLine, IsRefusedWhereItIsWrong) {
   refuse({"--map_every=0"}, "--map_every=0: expected at least 1");
   refuse({"--adaptive_gate_m=nan"}, "--adaptive_gate_m=nan: expected a length in m, or 0");
   refuse({"--write_map_voxel_m=-1"}, "--write_map_voxel_m=-1: expected a number of at least 0");
+  refuse({"--deskew=maybe"}, "expected one of auto, on, off");
   refuse({"--prediction=crystal_ball"}, "expected one of constant_velocity, none");
   refuse({"--frames=5:1"}, "--frames=5:1: expected FIRST:LAST with 0 <= FIRST <= LAST");
   refuse({"--scans=no_scans"}, "expected one of --scene=NAME, --kitti_root=DIR and --scans=DIR.");
@@ -223,50 +223,6 @@ TEST_F(OdometryApp, TakesNamesInNaturalOrder) {
               AllOf(HasSubstr("12 scans, scan_1.ply to scan_12.ply"), HasSubstr("path: 8.8 m")));
   EXPECT_LT(nlohmann::json::parse(ReadFile(Path("out/manifest.json")))["results"]["end_off_m"],
             0.05);
-}
-
-// Scans 4 to 7 are missing, as in KITTI's raw drive 2011_09_26 0009.
-TEST_F(OdometryApp, SaysWhereTimesWereTakenFrom) {
-  std::string lines, stamps;
-  for (int i = 0; i < kScans; ++i) {
-    const std::string second = std::to_string(30 + i / 10) + "." + std::to_string(i % 10);
-    if (i >= 4 && i < 8) {
-      lines += "\n";
-      continue;
-    }
-    lines += "2011-09-26 13:02:" + second + "00000000\n";
-    stamps += second + " 0 0 0 0 0 0 1\n";
-    folder_.Write("raw/velodyne_points/data/0000" + ScanName(i),
-                  Bytes(TheDrive().scans[static_cast<std::size_t>(i)]));
-  }
-  folder_.Write("raw/velodyne_points/timestamps.txt", lines);
-  folder_.Write("tum.txt", stamps);
-  const auto run = [&](std::vector<std::string> more) {
-    more.insert(more.begin(), {"--scans=" + Path("raw"), "--out=" + Path("out")});
-    return RunProgram("odometry", more);
-  };
-  Outcome outcome = run({});
-  ASSERT_EQ(outcome.code, 0) << outcome.err;
-  EXPECT_THAT(outcome.out, AllOf(HasSubstr("times: timestamps.txt, 1 gap of 0.5 s\n"),
-                                 HasSubstr("path: 8.8 m")));
-  EXPECT_EQ(nlohmann::json::parse(ReadFile(Path("out/manifest.json")))["results"]["times"],
-            "timestamps.txt, 1 gap of 0.5 s");
-  const SE3d end = ReadTrajectory(Path("out/trajectory_tum.txt")).T_world_body.back();
-  EXPECT_LT(DistanceM(end, TheDrive().T_world_lidar.back()), 0.05);
-  // Results depend on the times: with others the journal is another's.
-  ExpectRefusal(run({"--timestamps=" + Path("tum.txt")}), 2, "times=");
-  outcome = run({"--timestamps=" + Path("tum.txt"), "--restart"});
-  ASSERT_EQ(outcome.code, 0) << outcome.err;
-  EXPECT_THAT(outcome.out, HasSubstr("times: tum.txt, 1 gap of 0.5 s\n"));
-  EXPECT_EQ(ReadTrajectory(Path("out/trajectory_tum.txt")).times_s[4], 30.8);
-  folder_.Write("tum.txt", stamps + "99\n");
-  ExpectRefusal(run({"--timestamps=" + Path("tum.txt")}), 2,
-                "tum.txt: 9 times; expected one for each of the 8 scans.");
-  // Without a file the numbers of a raw drive's scans tell as much.
-  std::filesystem::remove(Path("raw/velodyne_points/timestamps.txt"));
-  outcome = run({"--restart"});
-  EXPECT_THAT(outcome.out,
-              HasSubstr("times: numbers of the scans, taken as 10 Hz, 1 gap of 0.5 s\n"));
 }
 
 TEST_F(OdometryApp, TakesFoldersOfAnyName) {
