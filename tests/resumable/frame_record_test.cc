@@ -128,13 +128,13 @@ TEST(FrameRecord, RefusesGarbage) {
     shorter.erase(shorter.begin() + static_cast<std::ptrdiff_t>(i));
     EXPECT_TRUE(refused(Join(shorter, " "))) << i;
   }
-  for (std::size_t i = 14; i < words.size(); ++i) {  // Poses.
+  for (std::size_t i = 15; i < words.size(); ++i) {  // Poses.
     std::vector<std::string> changed = words;
     changed[i] = "nan";
     EXPECT_TRUE(refused(Join(changed, " "))) << i;
   }
   // All but rmse, gate_m and the times.
-  for (const std::size_t i : {1U, 2U, 3U, 4U, 5U, 6U, 7U, 10U, 11U}) {
+  for (const std::size_t i : {1U, 2U, 3U, 4U, 5U, 6U, 7U, 8U, 11U, 12U}) {
     for (const char* bad : {"nan", "0.5", "-1", "1e300"}) {
       std::vector<std::string> changed = words;
       changed[i] = bad;
@@ -145,7 +145,7 @@ TEST(FrameRecord, RefusesGarbage) {
   changed[1] = "2";  // Neither false nor true.
   EXPECT_TRUE(refused(Join(changed, " ")));
   changed = words;
-  changed[2] = "9";  // There are nine terminations.
+  changed[3] = "9";  // There are nine terminations.
   EXPECT_TRUE(refused(Join(changed, " ")));
   EXPECT_FALSE(refused(good));
 }
