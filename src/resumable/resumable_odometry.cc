@@ -55,10 +55,12 @@ void ResumableOdometry::ForScans(std::size_t begin, std::size_t end,
                                  const Progress& progress) {
   for (std::size_t i = begin; i < end; ++i) {
     take(i);
-    if (map_ && (i == 0 || records_.back().result.registered)) {
+    const FrameResult& result = records_.back().result;
+    // The first scan of several is de-skewed only when the second has been registered.
+    const bool is_first = i == 0 && (!result.deskewed || sequence_.scans.size() == 1);
+    if (map_ && (is_first || result.registered)) {
       NamingTheScan(i, [&] {
-        map_->Insert(odometry_.last_scan()->cloud(), records_.back().result.T_world_lidar,
-                     static_cast<int>(i));
+        map_->Insert(odometry_.last_scan()->cloud(), result.T_world_lidar, static_cast<int>(i));
       });
     }
     if (progress) {
