@@ -12,6 +12,7 @@
 #include "icpscape/common/error.h"
 #include "icpscape/common/text.h"
 #include "icpscape/io/kitti.h"
+#include "icpscape/io/scan_times.h"
 #include "icpscape/io/trajectory.h"
 
 namespace icpscape {

@@ -14,6 +14,7 @@
 #include "apps/run/progress.h"
 #include "apps/run/run.h"
 #include "icpscape/common/text.h"
+#include "icpscape/io/sha256.h"
 
 DEFINE_bool(restart, false, "Begins again, without the journal of an earlier run in --out.");
 static const icpscape::FlagMark restart_mark(&FLAGS_restart, icpscape::kAside);
@@ -35,6 +36,11 @@ std::string JournalHeader(const ScanSequence& sequence) {
     }
   }
   parts.push_back("scans=" + std::to_string(sequence.scans.size()));
+  std::string times;
+  for (const double time : sequence.times_s) {
+    times += Number(time) + " ";
+  }
+  parts.push_back("times=" + Sha256OfText(times));
   std::string header = Join(parts, "; ");
   std::replace(header.begin(), header.end(), '\n', ' ');  // A path may have one, a record not.
   return header;

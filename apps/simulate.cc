@@ -35,16 +35,18 @@ void Write(const std::string& name, const std::string& what, const std::vector<S
   options.root = run->folder();
   options.name = name;
   options.ply = SimulationFromFlags().ply;
+  options.point_times = LidarFromFlags().skewed;
   options.parameters = Parameters(what);
   run->Lasting("sequences/" + name);
   run->Lasting("poses/" + name + ".txt");
+  const std::vector<LidarMotion> motions = MotionsThrough(T_world_lidar);
   std::unique_ptr<Simulator> simulator;
   const auto scan = [&](int i) {
     if (!simulator) {
       simulator = std::make_unique<Simulator>(make_world(), LidarFromFlags(), SeedFromFlags());
     }
-    return simulator->Scan(T_world_lidar[static_cast<std::size_t>(i)],
-                           first_time_s + i * kScanPeriodS, i, ThreadsFromFlags());
+    return simulator->Scan(motions[static_cast<std::size_t>(i)], first_time_s + i * kScanPeriodS, i,
+                           ThreadsFromFlags());
   };
   DatasetSummary summary;
   {

@@ -10,7 +10,8 @@ namespace icpscape {
 /// Refuses flags that are wrong before any file is read. Throws UsageError.
 void CheckDriveFlags();
 
-/// The --frames of the sequence of the flags, turned around under --reverse. Prints what there is
+/// The --frames of the sequence of the flags, with the times of --timestamps where it is given,
+/// turned around under --reverse. Prints what there is
 /// and records the small inputs. Throws InputError.
 ScanSequence DriveFromFlags(Manifest* manifest);
 

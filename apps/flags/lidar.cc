@@ -20,6 +20,10 @@ DEFINE_double(ring_bias_m, icpscape::LidarOptions().ring_bias_m,
               "HDL-64E's data sheet and KITTI agree.");
 DEFINE_double(dropout, icpscape::LidarOptions().dropout,
               "Share of returns lost at random; measured on KITTI.");
+DEFINE_bool(
+    skewed, false,
+    "The lidar and all that moves go on while it turns, as real ones do, and points have times; "
+    "else a scan is a snapshot.");
 
 namespace icpscape {
 
@@ -29,6 +33,7 @@ LidarOptions LidarFromFlags() {
   options.range_noise_m = FLAGS_range_noise_m;
   options.ring_bias_m = FLAGS_ring_bias_m;
   options.dropout = FLAGS_dropout;
+  options.skewed = FLAGS_skewed;
   options.Check();
   return options;
 }

@@ -9,7 +9,8 @@
 
 namespace icpscape {
 
-/// The simulated lidar of --azimuth_step_deg, --range_noise_m, --ring_bias_m and --dropout. Throws
+/// The simulated lidar of --azimuth_step_deg, --range_noise_m, --ring_bias_m, --dropout and
+/// --skewed. Throws
 /// UsageError.
 LidarOptions LidarFromFlags();
 

@@ -33,6 +33,11 @@ DEFINE_int32(map_every, 10, "With two_stage: number of scans from one mapping st
 DEFINE_string(prediction, "constant_velocity",
               "Predicted pose, for the start and the filters: constant_velocity (the motion of the "
               "scan before) or none (the identity).");
+DEFINE_string(
+    deskew, "auto",
+    "De-skewing, which moves each point of a scan by the predicted motion to where it was "
+    "at the scan's instant: auto (scans whose points have times), on (a scan without is "
+    "refused) or off.");
 DEFINE_double(adaptive_gate_m, 0,
               "If positive: the gate is three times the RMS error of the predicted poses so far "
               "(KISS-ICP), at most five times this and at most --max_distance_m; this is the "
@@ -76,6 +81,7 @@ OdometryOptions OdometryFromFlags() {
   options.map_every = FLAGS_map_every;
   options.constant_velocity =
       IndexOfName("prediction", FLAGS_prediction, {"constant_velocity", "none"}) == 0;
+  options.deskew = FromName<Deskewing>(FLAGS_deskew);
   options.adaptive_gate_m = FLAGS_adaptive_gate_m;
   options.threads = ThreadsFromFlags();
   options.Check();

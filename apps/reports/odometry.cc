@@ -68,6 +68,16 @@ void ReportDoubts(const std::vector<FrameRecord>& records, Manifest* manifest) {
       "ended_at_limit", "ended at the limit of steps: see frames.csv", manifest);
 }
 
+void ReportDeskewing(const std::vector<FrameRecord>& records, Manifest* manifest) {
+  const auto count = std::count_if(records.begin(), records.end(), [](const FrameRecord& record) {
+    return record.result.deskewed;
+  });
+  if (count > 0) {
+    std::cout << "de-skewed: " << count << " of " << records.size() << " scans" << std::endl;
+  }
+  manifest->SetResult("deskewed", static_cast<double>(count));
+}
+
 void PrintPath(const std::vector<SE3d>& T_world_body) {
   const double away_m = (T_world_body.back().t() - T_world_body.front().t()).norm();
   std::printf("path: %.1f m, %.1f m from its start to its end\n", PathLengths(T_world_body).back(),
@@ -113,6 +123,9 @@ NamedTrajectory ReportOdometry(const ResumableOdometry& odometry, Run* run) {
     WritePly(run->File("map.ply"), odometry.map()->Cloud(SE3d()));
   }
   ReportDoubts(odometry.records(), run->manifest());
+  std::cout << "times: " << sequence.TimesText() << std::endl;
+  run->manifest()->SetResult("times", sequence.TimesText());
+  ReportDeskewing(odometry.records(), run->manifest());
   PrintPath(named.pair.estimate);
   ReportSpeed(odometry.records(), run->manifest());
   return named;

@@ -4,8 +4,12 @@
 #include <algorithm>
 #include <charconv>
 #include <cmath>
+#include <functional>
+#include <utility>
 
+#include "icpscape/cloud/constant_velocity.h"
 #include "icpscape/common/error.h"
+#include "icpscape/common/text.h"
 
 namespace icpscape {
 namespace {
@@ -79,7 +83,36 @@ void ScanSequence::Reverse() {
   std::reverse(scans.begin(), scans.end());
   std::reverse(T_world_lidar.begin(), T_world_lidar.end());
   std::reverse(T_world_camera.begin(), T_world_camera.end());
+  const std::vector<double> forwards = times_s;
+  std::transform(forwards.rbegin(), forwards.rend(), times_s.begin(),
+                 [&](double t) { return forwards.front() + (forwards.back() - t); });
+  for (Scan& scan : scans) {
+    scan.read = [read = std::move(scan.read)](DroppedPoints* dropped) {
+      PointCloud cloud = read(dropped);
+      std::transform(cloud.time_s.begin(), cloud.time_s.end(), cloud.time_s.begin(),
+                     std::negate<float>());
+      return cloud;
+    };
+  }
   title += " reversed";
+}
+
+std::string ScanSequence::TimesText() const {
+  std::vector<double> spans;
+  for (std::size_t i = 1; i < times_s.size(); ++i) {
+    spans.push_back(times_s[i] - times_s[i - 1]);
+  }
+  std::sort(spans.begin(), spans.end());
+  const auto first_gap = std::find_if(spans.begin(), spans.end(), [&](double span) {
+    return span > 1.5 * spans[(spans.size() - 1) / 2];
+  });
+  const auto gaps = spans.end() - first_gap;
+  if (gaps == 0) {
+    return times_from;
+  }
+  return times_from + ", " +
+         (gaps == 1 ? "1 gap of " : std::to_string(gaps) + " gaps, the longest of ") +
+         Number(std::round(1e3 * spans.back()) / 1e3) + " s";
 }
 
 std::optional<SE3d> ScanSequence::Motion(int to, int from) const {
@@ -116,6 +149,10 @@ ScanPair ScanSequence::Pair(
   pair.truth_is_exact = truth_is_exact;
   if (source > 0 && target > 0) {
     pair.T_predicted = Motion(target - 1, source - 1);
+    if (pair.T_predicted && times_s.size() == scans.size()) {
+      const auto from = times_s.begin() + target, to = times_s.begin() + source;
+      pair.T_predicted = MotionDuring(*to - *from, *pair.T_predicted, *(to - 1) - *(from - 1));
+    }
   }
   pair.source = read("source", scans[static_cast<std::size_t>(source)]);
   pair.target = read("target", scans[static_cast<std::size_t>(target)]);

@@ -21,6 +21,8 @@ struct Scan {
   std::filesystem::path file;  ///< Empty where the scan is simulated.
   /// Says how many points were dropped. Throws InputError.
   std::function<PointCloud(DroppedPoints*)> read;
+  std::filesystem::path times_file =
+      {};  ///< Of the times of its points; empty where `file` has all.
 
   /// For messages: the path of the file, or the name.
   std::string Place() const { return file.empty() ? name : file.string(); }
@@ -43,7 +45,8 @@ struct ScanSequence {
   std::vector<Scan> scans;
   /// Seconds, one per scan, increasing; NaN for a scan without a time.
   std::vector<double> times_s;
-  bool times_are_measured = false;  ///< Else they are made up: kScanPeriodS apart.
+  bool times_are_measured = false;  ///< Else they are made up: a count of kScanPeriodS.
+  std::string times_from;           ///< For people, where they come from: "times.txt".
   /// Ground truth: the pose of the lidar at each frame, in any world. Empty where there is none; it
   /// may end before the scans do.
   std::vector<SE3d> T_world_lidar;
@@ -58,16 +61,23 @@ struct ScanSequence {
   /// there is a ground truth, a pose. Throws InputError naming what is missing.
   ScanSequence Frames(const FrameRange& range) const;
 
-  /// Turns the sequence around: the last scan comes first. The times stay as they are.
+  /// Turns the sequence around: the last scan comes first. Time still goes forwards: from the same
+  /// first time to the same last one, with the gaps in turned order; the times of points have the
+  /// other sign.
   void Reverse();
+
+  /// "times.txt, 1 gap of 0.5 s": where the times come from, and spans between scans that are more
+  /// than one and a half times as long as usual (the median).
+  std::string TimesText() const;
 
   /// T_to_from of the lidar by the ground truth, where there is one. Where the files hold poses of
   /// the camera: Tr^-1 P_to^-1 P_from Tr. Throws InputError where a frame has no pose.
   std::optional<SE3d> Motion(int to, int from) const;
 
   /// The scan `source`, to be registered to the scan `target`; with the ground truth and, where
-  /// both have a frame before, the predicted pose: the motion between these. `read` reads a scan by
-  /// its role, "source" or "target". Throws InputError where there is no such frame.
+  /// both have a frame before, the predicted pose: the motion between these, for the time between
+  /// the two (see MotionDuring). `read` reads a scan by its role, "source" or "target". Throws
+  /// InputError where there is no such frame.
   ScanPair Pair(int source, int target,
                 const std::function<PointCloud(const char* role, const Scan&)>& read) const;
   /// The same, read silently.

@@ -19,6 +19,9 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
+// Folders of files that each scan has.
+constexpr const char* kKinds[] = {"velodyne", "labels", "rings", "times", "ply"};
+
 // KITTI's camera looks forward with x right and y down, 0.27 m ahead of the lidar and 0.08 m below
 // it [Geiger et al. 2013, fig. 3].
 SE3d CameraFromLidar() {
@@ -71,7 +74,7 @@ void RefuseForeignSequences(const std::filesystem::path& root) {
 
 // Scans of an earlier, longer run would stand beside poses that do not know them.
 void RemoveSurplus(const std::filesystem::path& folder, const Json& files) {
-  for (const char* kind : {"velodyne", "labels", "rings", "ply"}) {
+  for (const char* kind : kKinds) {
     std::error_code error;
     std::vector<std::filesystem::path> surplus;
     for (const auto& entry : std::filesystem::directory_iterator(folder / kind, error)) {
@@ -88,11 +91,10 @@ void RemoveSurplus(const std::filesystem::path& folder, const Json& files) {
 void PrepareFolders(const DatasetOptions& options, const std::filesystem::path& folder) {
   RefuseForeignSequences(options.root);
   PrepareOutputFolder(options.root / "poses");
-  for (const char* kind : {"velodyne", "labels", "rings"}) {
-    PrepareOutputFolder(folder / kind);
-  }
-  if (options.ply) {
-    PrepareOutputFolder(folder / "ply");
+  for (const std::string kind : kKinds) {
+    if ((kind != "ply" || options.ply) && (kind != "times" || options.point_times)) {
+      PrepareOutputFolder(folder / kind);
+    }
   }
 }
 
@@ -110,7 +112,7 @@ DatasetSummary WriteDataset(const DatasetOptions& options, const std::vector<SE3
   if (known.empty()) {
     // From here on the folder is ours, and what it held is not valid.
     write_record();
-    for (const char* kind : {"velodyne", "labels", "rings", "ply"}) {
+    for (const char* kind : kKinds) {
       std::filesystem::remove_all(folder / kind);
     }
     PrepareFolders(options, folder);
@@ -122,6 +124,9 @@ DatasetSummary WriteDataset(const DatasetOptions& options, const std::vector<SE3
     std::vector<std::string> names = {"velodyne/" + ScanName(i, "bin"),
                                       "labels/" + ScanName(i, "label"),
                                       "rings/" + ScanName(i, "ring")};
+    if (options.point_times) {
+      names.push_back("times/" + ScanName(i, "time"));
+    }
     if (options.ply) {
       names.push_back("ply/" + ScanName(i, "ply"));
     }
@@ -136,8 +141,11 @@ DatasetSummary WriteDataset(const DatasetOptions& options, const std::vector<SE3
       WriteVelodyne(folder / names[0], cloud);
       WriteLabels(folder / names[1], cloud);
       WriteRings(folder / names[2], cloud);
+      if (options.point_times) {
+        WritePointTimes(folder / names[3], cloud);
+      }
       if (options.ply) {
-        WritePly(folder / names[3], cloud);
+        WritePly(folder / names.back(), cloud);
       }
       ++summary.simulated;
     }

@@ -14,11 +14,12 @@ namespace icpscape {
 /// A folder in KITTI's layout to be filled with simulated scans:
 ///   ROOT/sequences/NAME/{velodyne/NNNNNN.bin, labels/NNNNNN.label, rings/NNNNNN.ring},
 ///   ROOT/sequences/NAME/{calib.txt, times.txt}, ROOT/poses/NAME.txt,
-/// and, if asked for, ROOT/sequences/NAME/ply/NNNNNN.ply.
+/// and, if asked for, ROOT/sequences/NAME/{times/NNNNNN.time, ply/NNNNNN.ply}.
 struct DatasetOptions {
   std::filesystem::path root;
   std::string name;
   bool ply = false;
+  bool point_times = false;  ///< Whether the points have times, which are written.
   /// All that the scans depend on, as text: the scans are kept while it stays the same.
   std::string parameters;
 };

@@ -58,6 +58,22 @@ PointCloud ReadVelodyne(const std::filesystem::path& path, DroppedPoints* droppe
   return cloud;
 }
 
+void ReadPointTimes(const std::filesystem::path& path, PointCloud* cloud) {
+  std::ifstream in = Open(path, "the times of a scan's points");
+  const std::uintmax_t bytes = std::filesystem::file_size(path);
+  if (bytes != cloud->size() * sizeof(float)) {
+    throw InputError(path.string() + ": " + std::to_string(bytes) +
+                     " bytes; expected a float32 for " + "each of the scan's " +
+                     std::to_string(cloud->size()) + " usable points.");
+  }
+  cloud->time_s.resize(cloud->size());
+  in.read(reinterpret_cast<char*>(cloud->time_s.data()), static_cast<std::streamsize>(bytes));
+  if (!in) {
+    throw InputError(path.string() + ": reading stopped before byte " + std::to_string(bytes) +
+                     "; expected the times of all points.");
+  }
+}
+
 KittiFiles::KittiFiles(std::filesystem::path root, std::string sequence)
     : root_(std::move(root)), sequence_(std::move(sequence)) {
   const std::filesystem::path folder = root_ / "sequences" / sequence_;
@@ -70,6 +86,10 @@ std::filesystem::path KittiFiles::Scan(int frame) const {
   std::array<char, 16> name;
   std::snprintf(name.data(), name.size(), "%06d.bin", frame);
   return root_ / "sequences" / sequence_ / "velodyne" / name.data();
+}
+
+std::filesystem::path KittiFiles::PointTimes(int frame) const {
+  return root_ / "sequences" / sequence_ / "times" / Scan(frame).stem().concat(".time");
 }
 
 std::filesystem::path KittiFiles::Poses() const { return root_ / "poses" / (sequence_ + ".txt"); }

@@ -15,6 +15,10 @@ namespace icpscape {
 /// point is left.
 PointCloud ReadVelodyne(const std::filesystem::path& path, DroppedPoints* dropped);
 
+/// Gives the points of a scan their times, from a file of one little-endian float32 (s) per point.
+/// Throws InputError where it cannot be read, or has not one for each point.
+void ReadPointTimes(const std::filesystem::path& path, PointCloud* cloud);
+
 /// Where the files of a sequence of the KITTI odometry benchmark lie:
 ///   ROOT/sequences/SS/velodyne/NNNNNN.bin, ROOT/sequences/SS/{calib,times}.txt, ROOT/poses/SS.txt.
 class KittiFiles {
@@ -23,6 +27,8 @@ class KittiFiles {
   KittiFiles(std::filesystem::path root, std::string sequence);
 
   std::filesystem::path Scan(int frame) const;
+  /// ROOT/sequences/SS/times/NNNNNN.time, which simulated sequences have.
+  std::filesystem::path PointTimes(int frame) const;
   std::filesystem::path Poses() const;
   std::filesystem::path Calibration() const;
   std::filesystem::path Times() const;

@@ -54,6 +54,11 @@ void WriteRings(const std::filesystem::path& path, const PointCloud& cloud) {
   WriteBinary(path, std::vector<std::uint8_t>(cloud.ring.begin(), cloud.ring.end()));
 }
 
+void WritePointTimes(const std::filesystem::path& path, const PointCloud& cloud) {
+  RequireAll(path, cloud.time_s.size(), cloud, "time");
+  WriteBinary(path, cloud.time_s);
+}
+
 void WriteKittiPoses(const std::filesystem::path& path, const std::vector<SE3d>& T_world_lidar,
                      const SE3d& Tr) {
   WriteKittiTrajectory(path, KittiPosesOf(T_world_lidar, Tr));

@@ -22,6 +22,10 @@ void WriteLabels(const std::filesystem::path& path, const PointCloud& cloud);
 /// UsageError where the points have no rings.
 void WriteRings(const std::filesystem::path& path, const PointCloud& cloud);
 
+/// times/NNNNNN.time: little-endian float32 per point, when it was measured (s). Throws UsageError
+/// where the points have no times.
+void WritePointTimes(const std::filesystem::path& path, const PointCloud& cloud);
+
 /// poses/SS.txt from lidar poses: rows P_i = Tr T_0^-1 T_i Tr^-1, 3x4 row-major, camera frame, the
 /// first one the identity; all digits.
 void WriteKittiPoses(const std::filesystem::path& path, const std::vector<SE3d>& T_world_lidar,

@@ -3,8 +3,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
-#include <fstream>
 #include <limits>
 #include <numeric>
 #include <set>
@@ -12,7 +10,9 @@
 #include "icpscape/common/error.h"
 #include "icpscape/common/text.h"
 #include "icpscape/io/kitti.h"
+#include "icpscape/io/natural_order.h"
 #include "icpscape/io/point_files.h"
+#include "icpscape/io/scan_times.h"
 
 namespace icpscape {
 namespace {
@@ -21,6 +21,47 @@ constexpr double kLargestFrame = 1e9;
 
 double NumberOf(const std::filesystem::path& scan) { return ParseNumber(scan.stem().string()); }
 
+std::vector<std::size_t> CountUp(std::size_t count) {
+  std::vector<std::size_t> lines(count);
+  std::iota(lines.begin(), lines.end(), std::size_t{0});
+  return lines;
+}
+
+// The numbers that the names are behind their first `letters` letters, which are the same; nothing
+// where one of them is none.
+std::vector<double> NumbersBehind(std::size_t letters,
+                                  const std::vector<std::filesystem::path>& scans) {
+  const std::string first = scans.front().stem().string();
+  std::vector<double> numbers;
+  for (const std::filesystem::path& scan : scans) {
+    const std::string name = scan.stem().string();
+    if (name.size() <= letters || name.compare(0, letters, first, 0, letters) != 0 ||
+        !std::isfinite(ParseNumber(name.substr(letters)))) {
+      return {};
+    }
+    numbers.push_back(ParseNumber(name.substr(letters)));
+  }
+  return numbers;
+}
+
+// By number where all names are numbers ("-1.5", "10"), or the same letters and a number ("t9.5",
+// "t10"); else, and among equal numbers, in natural order.
+void Sort(std::vector<std::filesystem::path>* scans) {
+  std::sort(scans->begin(), scans->end(), [](const auto& a, const auto& b) {
+    return ComesBefore(a.stem().string(), b.stem().string());
+  });
+  std::vector<double> numbers = NumbersBehind(0, *scans);
+  if (numbers.empty()) {
+    numbers = NumbersBehind(scans->front().stem().string().find_first_of("0123456789"), *scans);
+  }
+  std::vector<std::size_t> order = CountUp(numbers.size());
+  std::stable_sort(order.begin(), order.end(),
+                   [&](std::size_t a, std::size_t b) { return numbers[a] < numbers[b]; });
+  const std::vector<std::filesystem::path> natural = *scans;
+  std::transform(order.begin(), order.end(), scans->begin(),
+                 [&](std::size_t i) { return natural[i]; });
+}
+
 // The files that ReadPointFile takes, in order.
 std::vector<std::filesystem::path> ScansIn(const std::filesystem::path& folder) {
   std::error_code error;
@@ -28,6 +69,9 @@ std::vector<std::filesystem::path> ScansIn(const std::filesystem::path& folder) 
   std::set<std::string> kinds;
   for (const auto& entry : std::filesystem::directory_iterator(folder, error)) {
     const std::string kind = entry.path().extension().string();
+    if (entry.path().filename().string()[0] == '.') {
+      continue;  // Hidden, as files are that are not yet whole; see WriteThenRename.
+    }
     if (kind == ".bin" || kind == ".pcd" || kind == ".ply") {
       scans.push_back(entry.path());
       kinds.insert(kind);
@@ -40,23 +84,8 @@ std::vector<std::filesystem::path> ScansIn(const std::filesystem::path& folder) 
     throw InputError(folder.string() + ": holds " + Join({kinds.begin(), kinds.end()}, " and ") +
                      " files; expected scans of one kind.");
   }
-  const bool are_numbers = std::all_of(
-      scans.begin(), scans.end(), [](const auto& scan) { return std::isfinite(NumberOf(scan)); });
-  std::sort(scans.begin(), scans.end(), [&](const auto& a, const auto& b) {
-    return are_numbers && NumberOf(a) != NumberOf(b) ? NumberOf(a) < NumberOf(b) : a < b;
-  });
+  Sort(&scans);
   return scans;
-}
-
-// "12.5", or KITTI's "2011-09-26 14:14:10.911685885" as seconds since the month began.
-double ParseTime(const std::string& text) {
-  int year = 0, month = 0, day = 0, hour = 0, minute = 0, length = 0;
-  if (std::sscanf(text.c_str(), "%d-%d-%d %d:%d:%n", &year, &month, &day, &hour, &minute,
-                  &length) == 5) {
-    return ((day * 24.0 + hour) * 60 + minute) * 60 +
-           ParseNumber(text.substr(static_cast<std::size_t>(length)));
-  }
-  return ParseNumber(text);
 }
 
 Scan FileOf(const std::filesystem::path& path) {
@@ -64,11 +93,38 @@ Scan FileOf(const std::filesystem::path& path) {
           [path](DroppedPoints* dropped) { return ReadPointFile(path, dropped); }};
 }
 
-// Line `lines[i]` of the file's times is that of scan i; made up where there is no such file.
+// With the times of its points where there is a file of them.
+Scan ScanOf(const KittiFiles& kitti, int frame) {
+  Scan scan = FileOf(kitti.Scan(frame));
+  const std::filesystem::path times = kitti.PointTimes(frame);
+  if (std::filesystem::exists(times)) {
+    scan.times_file = times;
+    scan.read = [read = scan.read, times](DroppedPoints* dropped) {
+      PointCloud cloud = read(dropped);
+      ReadPointTimes(times, &cloud);
+      return cloud;
+    };
+  }
+  return scan;
+}
+
+void SetTimes(ScanTimes times, ScanSequence* sequence) {
+  sequence->times_s = std::move(times.times_s);
+  sequence->times_are_measured = times.are_measured;
+  sequence->times_from = std::move(times.from);
+}
+
+// Line `lines[i]` of a file of times is that of scan i. Without times, lines count periods.
 void SetTimes(const std::filesystem::path& file, const std::vector<double>& times,
               const std::vector<std::size_t>& lines, ScanSequence* sequence) {
   sequence->times_file = file;
   sequence->times_are_measured = !times.empty();
+  const bool is_even = lines.empty() || lines.back() - lines.front() + 1 == lines.size();
+  sequence->times_from = is_even ? kNoTimes : kTimesByNumber;
+  if (!times.empty()) {
+    sequence->times_from = file.filename().string();
+    sequence->inputs.push_back(file);
+  }
   for (const std::size_t line : lines) {
     if (times.empty()) {
       sequence->times_s.push_back(static_cast<double>(line) * kScanPeriodS);
@@ -79,10 +135,19 @@ void SetTimes(const std::filesystem::path& file, const std::vector<double>& time
   }
 }
 
-std::vector<std::size_t> CountUp(std::size_t count) {
-  std::vector<std::size_t> lines(count);
-  std::iota(lines.begin(), lines.end(), std::size_t{0});
-  return lines;
+// Of a folder of scans: in a file beside them, or in their names.
+void SetTimesOfFolder(const std::filesystem::path& folder,
+                      const std::vector<std::filesystem::path>& files, ScanSequence* sequence) {
+  for (const char* name : {"timestamps.txt", "times.txt"}) {
+    if (std::filesystem::exists(folder / name)) {
+      SetTimesFromFile(folder / name, sequence);
+      return;
+    }
+  }
+  std::vector<std::string> names(files.size());
+  std::transform(files.begin(), files.end(), names.begin(),
+                 [](const auto& file) { return file.stem().string(); });
+  SetTimes(TimesFromNames(names), sequence);
 }
 
 // The number that a scan of a raw drive has by its name, which is its line of timestamps.txt: some
@@ -113,23 +178,12 @@ int LastFrame(const KittiFiles& kitti) {
 
 }  // namespace
 
-std::vector<double> ReadTimes(const std::filesystem::path& path) {
-  std::ifstream in(path);
-  std::vector<double> times;
-  double last = -std::numeric_limits<double>::infinity();
-  for (std::string line; std::getline(in, line);) {
-    line.erase(line.find_last_not_of(" \t\r") + 1);
-    times.push_back(ParseTime(line));
-    if (line.empty()) {
-      continue;
-    }
-    if (!std::isfinite(times.back()) || !(times.back() > last)) {
-      throw InputError(path.string() + ":" + std::to_string(times.size()) + ": \"" + line +
-                       "\"; expected a time after the one before.");
-    }
-    last = times.back();
-  }
-  return times;
+void SetTimesFromFile(const std::filesystem::path& path, ScanSequence* sequence) {
+  sequence->times_s = ReadTimesOfScans(path, sequence->scans.size());
+  sequence->times_are_measured = true;
+  sequence->times_from = path.filename().string();
+  sequence->times_file = path;
+  sequence->inputs.push_back(path);
 }
 
 ScanSequence OpenKittiSequence(const std::filesystem::path& root, const std::string& name) {
@@ -141,7 +195,7 @@ ScanSequence OpenKittiSequence(const std::filesystem::path& root, const std::str
   sequence.place = kitti.Scan(0).parent_path();
   const int last = LastFrame(kitti);
   for (int frame = 0; frame <= last; ++frame) {
-    sequence.scans.push_back(FileOf(kitti.Scan(frame)));
+    sequence.scans.push_back(ScanOf(kitti, frame));
   }
   SetTimes(kitti.Times(), ReadTimes(kitti.Times()), CountUp(sequence.scans.size()), &sequence);
   if (!std::filesystem::exists(kitti.Calibration())) {
@@ -174,7 +228,7 @@ ScanSequence OpenScanFolder(const std::filesystem::path& folder) {
   const std::vector<std::filesystem::path> files = ScansIn(is_raw ? raw / "data" : folder);
   std::transform(files.begin(), files.end(), std::back_inserter(sequence.scans), FileOf);
   if (!is_raw) {
-    SetTimes("", {}, CountUp(files.size()), &sequence);
+    SetTimesOfFolder(folder, files, &sequence);
     return sequence;
   }
   std::vector<std::size_t> lines(files.size());
@@ -193,7 +247,7 @@ ScanSequence OpenTwoScans(const std::filesystem::path& source,
   ScanSequence sequence;
   sequence.title = source.filename().string() + " to " + target.filename().string();
   sequence.scans = {FileOf(target), FileOf(source)};
-  SetTimes("", {}, CountUp(2), &sequence);
+  SetTimes(EvenTimes(2), &sequence);
   return sequence;
 }
 

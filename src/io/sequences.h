@@ -14,24 +14,26 @@ namespace icpscape {
 ///   ROOT/sequences/SS/velodyne/NNNNNN.bin, ROOT/sequences/SS/calib.txt, ROOT/poses/SS.txt.
 /// Frames are the numbers of the scans, up to the last one that is there; scans between may be
 /// missing until they are read. Times, poses and calibration come from their files where those are
-/// there. Throws InputError where a file is malformed or ROOT/sequences/SS is no folder.
+/// there, and the times of a scan's points from times/NNNNNN.time. Throws InputError where a file
+/// is malformed or ROOT/sequences/SS is no folder.
 ScanSequence OpenKittiSequence(const std::filesystem::path& root, const std::string& sequence);
 
-/// A folder of .bin, .pcd or .ply files, by number where all names are numbers, else by name; or a
-/// raw drive of KITTI's, with velodyne_points/data and, where it is there,
-/// velodyne_points/timestamps.txt. Frames count the scans that are there from 0; the time of a raw
-/// scan is the line of its number (drives can lack scans). Throws InputError where there is no
-/// scan, more than one kind of file, or a malformed time.
+/// A folder of .bin, .pcd or .ply files, by number where all names are numbers, else in natural
+/// order (see ComesBefore); hidden files, which begin with a dot, are no scans. Or a raw drive of
+/// KITTI's, with velodyne_points/data and, where it is there, velodyne_points/timestamps.txt.
+/// Frames count the scans that are there from 0. The time of a raw scan is the line of its number
+/// (drives can lack scans); a folder has timestamps.txt or times.txt in it, with a line for each
+/// scan, or the times that the names spell (see TimesFromNames). Throws InputError where there is
+/// no scan, more than one kind of file, or a malformed time.
 ScanSequence OpenScanFolder(const std::filesystem::path& folder);
+
+/// Takes the times of the scans from a file with one for each; see ReadTimesOfScans. Throws
+/// InputError.
+void SetTimesFromFile(const std::filesystem::path& path, ScanSequence* sequence);
 
 /// Two files: frame 0 is the target, frame 1 the source. The files are looked at when they are
 /// read.
 ScanSequence OpenTwoScans(const std::filesystem::path& source, const std::filesystem::path& target);
-
-/// A file of times, one per line: increasing, NaN where a line is blank (so KITTI marks scans that
-/// were lost). Seconds, or KITTI's dates and times as seconds since the month began. Nothing where
-/// there is no file. Throws InputError.
-std::vector<double> ReadTimes(const std::filesystem::path& path);
 
 }  // namespace icpscape
 

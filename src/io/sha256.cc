@@ -64,7 +64,7 @@ std::string Sha256OfScan(const std::filesystem::path& file, const PointCloud& cl
     return Sha256(file);
   }
   std::string bytes;
-  for (const std::vector<float>* axis : {&cloud.x, &cloud.y, &cloud.z}) {
+  for (const std::vector<float>* axis : {&cloud.x, &cloud.y, &cloud.z, &cloud.time_s}) {
     bytes.append(reinterpret_cast<const char*>(axis->data()), axis->size() * sizeof(float));
   }
   return Sha256OfText(bytes);

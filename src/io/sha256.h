@@ -13,7 +13,8 @@ namespace icpscape {
 std::string Sha256(const std::filesystem::path& path);
 /// The same of a text.
 std::string Sha256OfText(const std::string& text);
-/// Of a scan: its file's bytes, or the coordinates of a cloud that was not read from a file.
+/// Of a scan: its file's bytes, or the coordinates and times of a cloud that was not read from a
+/// file.
 std::string Sha256OfScan(const std::filesystem::path& file, const PointCloud& cloud);
 
 }  // namespace icpscape

@@ -35,7 +35,7 @@ class Experiment {
  private:
   Experiment(const MonteCarloOptions& options, Scene scene)
       : options_(options),
-        T_world_lidar_(scene.T_world_lidar),
+        motions_(MotionsThrough({scene.T_world_lidar.begin(), scene.T_world_lidar.end()})),
         T_truth_(scene.T_target_source()),
         simulator_(std::move(scene.world), options.lidar, options.seed) {
     RandomStartOptions start = options.start;
@@ -48,8 +48,8 @@ class Experiment {
   PointCloud Scan(int frame, int draw) const {
     const std::uint64_t sensor =
         options_.sensor == Sensor::kRedrawn ? static_cast<std::uint64_t>(draw) : 0;
-    return simulator_.Scan(T_world_lidar_[static_cast<std::size_t>(frame)],
-                           (frame - 1) * kScanPeriodS, 2 * draw + frame, 1, sensor);
+    return simulator_.Scan(motions_[static_cast<std::size_t>(frame)], (frame - 1) * kScanPeriodS,
+                           2 * draw + frame, 1, sensor);
   }
 
   DrawResult Register(const Objective& objective, const SE3d& T_start) const {
@@ -74,7 +74,7 @@ class Experiment {
   }
 
   MonteCarloOptions options_;
-  std::array<SE3d, kSceneScans> T_world_lidar_;
+  std::vector<LidarMotion> motions_;
   SE3d T_truth_;
   Simulator simulator_;
   std::vector<SE3d> starts_;

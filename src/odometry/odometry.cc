@@ -4,10 +4,13 @@
 #include <glog/logging.h>
 
 #include <algorithm>
+#include <cmath>
 #include <utility>
 
+#include "icpscape/cloud/scan_sequence.h"
 #include "icpscape/common/error.h"
 #include "icpscape/common/text.h"
+#include "icpscape/preparation/deskew.h"
 
 namespace icpscape {
 namespace {
@@ -143,9 +146,9 @@ bool Odometry::MapsNow() const {
          (options_.mode == OdometryMode::kTwoStage && size_ % options_.map_every == 0);
 }
 
-PreparedScan Odometry::PrepareOrEmpty(PointCloud scan) const {
+PreparedScan Odometry::PrepareOrEmpty(PointCloud scan, const Vec6& velocity) const {
   try {
-    return Prepare(std::move(scan), needs_, options_.preparation, options_.threads);
+    return Prepare(std::move(scan), needs_, options_.preparation, options_.threads, velocity);
   } catch (const InputError& error) {
     if (!last_) {
       throw;
@@ -155,63 +158,139 @@ PreparedScan Odometry::PrepareOrEmpty(PointCloud scan) const {
   }
 }
 
-FrameResult Odometry::Add(PointCloud scan) {
-  PreparedScan current = PrepareOrEmpty(std::move(scan));
+SE3d Odometry::PredictedMotion(std::optional<double> time_s) const {
+  return options_.constant_velocity ? motion_.Predict(time_s) : SE3d();
+}
+
+bool Odometry::IsSkewed(const PointCloud& scan) const {
+  if (options_.deskew == Deskewing::kOff || scan.empty()) {
+    return false;
+  }
+  const bool has_times = scan.time_s.size() == scan.size();
+  if (!has_times && options_.deskew == Deskewing::kOn) {
+    throw InputError("the points have no times; expected them, as the scan is to be de-skewed.");
+  }
+  return has_times && SweepOf(scan).Duration_s() > 0;
+}
+
+Vec6 Odometry::SweepVelocity(const PointCloud& scan, const SE3d& motion, double span_s) const {
+  if (!IsSkewed(scan)) {
+    return Vec6::Zero();
+  }
+  const double sweep_s = SweepOf(scan).Duration_s();
+  double seconds = sweep_s;  // That the motion took, as the points count them.
+  if (!std::isnan(span_s)) {
+    seconds = options_.times_are_measured ? span_s : span_s / kScanPeriodS * sweep_s;
+  }
+  constexpr double kMostSpans = 10;  // Units of time are a thousandfold apart.
+  if (sweep_s > kMostSpans * seconds) {
+    throw InputError("the times of the points span " + Number(sweep_s) + " s, and the scans are " +
+                     Number(seconds) + " s apart; expected seconds.");
+  }
+  return motion.Log() / seconds;
+}
+
+void Odometry::DeskewFirst(const SE3d& motion, double span_s) {
+  last_ = PrepareOrEmpty(*first_, SweepVelocity(*first_, motion, span_s));
+  if (options_.mode != OdometryMode::kScanToScan) {
+    map_ = LocalMap(options_.map, AnyPoints(options_.metrics), needs_);
+    map_.Insert(*last_, T_world_last_, 0);
+  }
+}
+
+FrameResult Odometry::RegisterNext(const PreparedScan& current,
+                                   const SE3d& predicted_motion) const {
   FrameResult result;
   result.points = current.cloud().size();
-  if (last_) {
-    const SE3d predicted_motion = options_.constant_velocity ? motion_ : SE3d();
-    result.gate_m = ObjectiveOptions().matching.max_distance_m;
-    result.motion = predicted_motion;
-    SE3d motion = predicted_motion;  // In kTwoStage with the map's correction.
-    const auto take_over = [&](const Registration& registration) {
-      if (!registration.verdict.HasPose()) {
-        LOG(WARNING) << "frame " << size_ << ": " << registration.verdict.no_pose;
-      }
-      result.registered = result.registered || registration.verdict.HasPose();
-      result.termination = registration.summary.termination;
-      result.converged = registration.verdict.converged;
-      result.predicted_directions = static_cast<int>(registration.verdict.Unobservable().cols());
-      result.uncertain_directions =
-          static_cast<int>(registration.verdict.undetermined.size()) - result.predicted_directions;
-      if (!registration.summary.iterates.empty()) {
-        const Iterate& last = registration.summary.iterates.back();
-        result.iterations += static_cast<int>(registration.summary.iterates.size()) - 1;
-        result.n = last.n;
-        result.rmse = last.rmse;
-      }
-    };
-    try {
-      if (options_.mode != OdometryMode::kScanToMap) {
-        const Registration registration =
-            Register({current, *last_}, T_last_previous_ * predicted_motion);
-        take_over(registration);
-        motion = result.motion = T_last_previous_.Inverse() * registration.T;
-      }
-      if (MapsNow()) {
-        const Registration registration = RegisterToMap(current, motion, &result);
-        take_over(registration);
-        motion = registration.T;
-      }
-    } catch (const ComputationError& error) {  // A filter or a metric was left without a point.
-      LOG(WARNING) << "frame " << size_ << ": " << error.what();
-    }
-    if (options_.mode == OdometryMode::kScanToMap) {
-      result.motion = motion;
-    }
-    result.T_world_lidar = (T_world_last_ * motion).Normalized();
+  if (!last_) {
+    return result;
   }
-  Finish(std::move(current), result);
+  result.gate_m = ObjectiveOptions().matching.max_distance_m;
+  result.motion = predicted_motion;
+  SE3d motion = predicted_motion;  // In kTwoStage with the map's correction.
+  const auto take_over = [&](const Registration& registration) {
+    if (!registration.verdict.HasPose()) {
+      LOG(WARNING) << "frame " << size_ << ": " << registration.verdict.no_pose;
+    }
+    result.registered = result.registered || registration.verdict.HasPose();
+    result.termination = registration.summary.termination;
+    result.converged = registration.verdict.converged;
+    result.predicted_directions = static_cast<int>(registration.verdict.Unobservable().cols());
+    result.uncertain_directions =
+        static_cast<int>(registration.verdict.undetermined.size()) - result.predicted_directions;
+    if (!registration.summary.iterates.empty()) {
+      const Iterate& last = registration.summary.iterates.back();
+      result.iterations += static_cast<int>(registration.summary.iterates.size()) - 1;
+      result.n = last.n;
+      result.rmse = last.rmse;
+    }
+  };
+  try {
+    if (options_.mode != OdometryMode::kScanToMap) {
+      const Registration registration =
+          Register({current, *last_}, T_last_previous_ * predicted_motion);
+      take_over(registration);
+      motion = result.motion = T_last_previous_.Inverse() * registration.T;
+    }
+    if (MapsNow()) {
+      const Registration registration = RegisterToMap(current, motion, &result);
+      take_over(registration);
+      motion = registration.T;
+    }
+  } catch (const ComputationError& error) {  // A filter or a metric was left without a point.
+    LOG(WARNING) << "frame " << size_ << ": " << error.what();
+  }
+  if (options_.mode == OdometryMode::kScanToMap) {
+    result.motion = motion;
+  }
+  result.T_world_lidar = (T_world_last_ * motion).Normalized();
   return result;
 }
 
-void Odometry::Replay(PointCloud scan, const FrameResult& result) {
-  Finish(PrepareOrEmpty(std::move(scan)), result);
+FrameResult Odometry::Add(PointCloud scan, std::optional<double> time_s) {
+  motion_.Check(time_s);
+  const bool is_skewed = IsSkewed(scan);
+  const Vec6 velocity = SweepVelocity(scan, motion_.motion(), motion_.span_s());
+  FrameResult result;
+  const bool has_velocity = size_ == 0 ? !is_skewed : !first_.has_value();
+  if (has_velocity) {
+    PreparedScan current = PrepareOrEmpty(std::move(scan), velocity);
+    result = RegisterNext(current, PredictedMotion(time_s));
+    result.deskewed = is_skewed;
+    Finish(std::move(current), result, time_s);
+    return result;
+  }
+  const PreparedScan as_it_is = PrepareOrEmpty(scan, velocity);
+  result = RegisterNext(as_it_is, PredictedMotion(time_s));
+  if (result.registered) {
+    const double span_s = motion_.Since(time_s);
+    DeskewFirst(result.motion, span_s);
+    result = RegisterNext(PrepareOrEmpty(scan, SweepVelocity(scan, result.motion, span_s)),
+                          result.motion);
+  }
+  result.deskewed = is_skewed;
+  Replay(std::move(scan), result, time_s);
+  return result;
 }
 
-void Odometry::Finish(PreparedScan scan, const FrameResult& result) {
+void Odometry::Replay(PointCloud scan, const FrameResult& result, std::optional<double> time_s) {
+  motion_.Check(time_s);
+  Vec6 velocity = SweepVelocity(scan, motion_.motion(), motion_.span_s());
+  if (size_ == 1 && first_ && result.registered) {
+    const double span_s = motion_.Since(time_s);
+    DeskewFirst(result.motion, span_s);
+    velocity = SweepVelocity(scan, result.motion, span_s);
+  }
+  first_.reset();
+  if (size_ == 0 && IsSkewed(scan)) {
+    first_ = scan;
+  }
+  Finish(PrepareOrEmpty(std::move(scan), velocity), result, time_s);
+}
+
+void Odometry::Finish(PreparedScan scan, const FrameResult& result, std::optional<double> time_s) {
   if (options_.adaptive_gate_m > 0 && last_) {
-    gate_.Add(options_.constant_velocity ? motion_ : SE3d(), result.motion);
+    gate_.Add(PredictedMotion(time_s), result.motion);
   }
   // An empty scan is nothing to register to: the next begins anew.
   const bool has_pose = !last_ || last_->cloud().empty() || result.registered;
@@ -227,7 +306,7 @@ void Odometry::Finish(PreparedScan scan, const FrameResult& result) {
     T_last_previous_ = T_last_previous_ * result.motion;
   }
   T_world_last_ = result.T_world_lidar;
-  motion_ = result.motion;
+  motion_.Add(result.motion, time_s);
   ++size_;
 }
 

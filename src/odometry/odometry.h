@@ -12,6 +12,7 @@
 #include "icpscape/objective/objective_set.h"
 #include "icpscape/odometry/adaptive_gate.h"
 #include "icpscape/odometry/local_map.h"
+#include "icpscape/odometry/motion_model.h"
 #include "icpscape/verdict/verdict.h"
 
 namespace icpscape {
@@ -28,6 +29,18 @@ struct Names<OdometryMode> {
   static constexpr const char* kNames[] = {"scan_to_scan", "scan_to_map", "two_stage"};
 };
 
+/// Which scans are de-skewed; see Deskew.
+enum class Deskewing {
+  kAuto,  ///< Those whose points have times.
+  kOn,    ///< All; a scan without times is refused.
+  kOff,
+};
+template <>
+struct Names<Deskewing> {
+  static constexpr const char* kWhat = "de-skewing";
+  static constexpr const char* kNames[] = {"auto", "on", "off"};
+};
+
 struct OdometryOptions {
   OdometryMode mode = OdometryMode::kScanToMap;
   std::vector<std::string> metrics = {"point_to_plane"};
@@ -40,11 +53,16 @@ struct OdometryOptions {
   /// Tolerances of the verdicts; the rest of it is as the loop has it.
   VerdictOptions verdict;
   int map_every = 10;  ///< kTwoStage: a mapping step every so many scans.
-  /// The predicted pose is the motion of the scan before; else the identity.
+  /// The predicted pose is the motion of the scan before, for the time since then (see
+  /// MotionModel); else the identity.
   bool constant_velocity = true;
   /// If positive: the gate follows from the errors of the predicted poses, and this is the assumed
   /// error of the first (m); see AdaptiveGate.
   double adaptive_gate_m = 0;
+  Deskewing deskew = Deskewing::kAuto;
+  /// Whether the times of scans are seconds, as those of points are. Else they only count periods
+  /// of kScanPeriodS, and the turn that a scan comes from is taken to last one.
+  bool times_are_measured = true;
   int threads = 1;
 
   /// Throws UsageError where options cannot go together.
@@ -60,6 +78,7 @@ struct FrameResult {
   /// Whether a stage had an answer. False for the first scan, and where the predicted motion was
   /// taken.
   bool registered = false;
+  bool deskewed = false;  ///< Whether its points had times by which they were moved.
   Termination termination = Termination::kFailure;
   bool converged = false;  ///< Of the last stage; see Verdict.
   /// Directions that the objective does not see, whatever the tolerance: there the predicted motion
@@ -81,19 +100,26 @@ struct FrameResult {
 /// registration does not see (JudgePose over at most kJudgedPoints points) get the predicted
 /// motion. A scan that ended at the limit of steps is left out of the map as well. Bit-identical
 /// for any number of threads.
+///
+/// Scans whose points have times are de-skewed by the velocity of the motion before. The first two
+/// have none before them: they are registered as they are, and once more after both were de-skewed
+/// by the velocity that this gave; for the map, by the one that was found then.
 class Odometry {
  public:
   /// Throws UsageError.
   explicit Odometry(OdometryOptions options);
   ~Odometry();
 
-  /// Registers the next scan. Throws InputError where the first scan cannot be prepared (see
-  /// Prepare), since then no other will be. A later one that cannot counts as empty.
-  FrameResult Add(PointCloud scan);
+  /// Registers the next scan, which was taken at `time_s`; the time of scans that have none is
+  /// taken to pass evenly. Throws InputError where the first scan cannot be prepared (see Prepare),
+  /// since then no other will be. A later one that cannot counts as empty. Throws UsageError where
+  /// the time is not after that of the scan before.
+  FrameResult Add(PointCloud scan, std::optional<double> time_s = std::nullopt);
 
   /// Takes over what Add returned for the next scan in an earlier run, without registering it:
   /// afterwards the state is bit for bit the one after Add.
-  void Replay(PointCloud scan, const FrameResult& result);
+  void Replay(PointCloud scan, const FrameResult& result,
+              std::optional<double> time_s = std::nullopt);
 
   /// Number of scans so far.
   int size() const { return size_; }
@@ -101,7 +127,10 @@ class Odometry {
   const PreparedScan* last_scan() const { return last_ ? &*last_ : nullptr; }
 
  private:
-  PreparedScan PrepareOrEmpty(PointCloud scan) const;
+  PreparedScan PrepareOrEmpty(PointCloud scan, const Vec6& velocity) const;
+  bool IsSkewed(const PointCloud& scan) const;
+  Vec6 SweepVelocity(const PointCloud& scan, const SE3d& motion, double span_s) const;
+  void DeskewFirst(const SE3d& motion, double span_s);
   struct Registration;
   Registration Register(const MetricClouds& source, const MetricClouds& target,
                         const SE3d& T_predicted) const;
@@ -110,7 +139,9 @@ class Odometry {
                              FrameResult* result) const;
   ObjectiveSetOptions ObjectiveOptions() const;
   bool MapsNow() const;
-  void Finish(PreparedScan scan, const FrameResult& result);
+  FrameResult RegisterNext(const PreparedScan& current, const SE3d& predicted_motion) const;
+  SE3d PredictedMotion(std::optional<double> time_s) const;
+  void Finish(PreparedScan scan, const FrameResult& result, std::optional<double> time_s);
 
   OdometryOptions options_;
   unsigned needs_ = 0;
@@ -118,7 +149,8 @@ class Odometry {
   std::optional<PreparedScan> last_;  // The last that was registered.
   SE3d T_last_previous_;              // From it to the last of all.
   SE3d T_world_last_;                 // Of the last of all, as the next.
-  SE3d motion_;
+  MotionModel motion_;
+  std::optional<PointCloud> first_;  // Until the second, if its points have times.
   AdaptiveGate gate_;
   LocalMap map_;
 };

@@ -6,6 +6,7 @@
 
 #include "icpscape/cloud/rings.h"
 #include "icpscape/filtering/voxel_filter.h"
+#include "icpscape/preparation/deskew.h"
 #include "icpscape/preparation/elevation.h"
 #include "icpscape/residuals/correspondence.h"
 
@@ -35,8 +36,16 @@ PreparedScan PreparedScan::Select(const std::vector<char>& keep, int threads) co
 }
 
 PreparedScan Prepare(PointCloud scan, unsigned needs, const PreparationOptions& options,
-                     int threads) {
+                     int threads, const Vec6& velocity) {
+  const bool reads_rings =
+      (needs & (kTargetLine | kTargetPatch)) != 0 && ReadsRings(options.features);
   CorrectElevation(options.elevation_correction_deg, &scan);
+  if (!velocity.isZero(0)) {
+    if (reads_rings) {
+      RecoverRings(&scan);  // From the azimuths that the lidar measured.
+    }
+    Deskew(velocity, threads, &scan);
+  }
   if (options.voxel_m > 0) {
     scan = VoxelFilter(scan, options.voxel_m);
   }
@@ -47,7 +56,7 @@ PreparedScan Prepare(PointCloud scan, unsigned needs, const PreparationOptions& 
   }
   std::optional<Features> features;
   if ((needs & (kTargetLine | kTargetPatch)) != 0) {
-    if (ReadsRings(options.features)) {
+    if (reads_rings) {
       RecoverRings(&scan);
     }
     features = ExtractFeatures(scan, options.features, threads);

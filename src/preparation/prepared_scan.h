@@ -44,11 +44,12 @@ class PreparedScan {
 };
 
 /// Prepares a scan for metrics and rejections whose needs are `needs`, a union of Needs: normals
-/// where a normal is among them, features where a line or a patch is. Normals and matching share
-/// one search. The result does not depend on `threads`. Throws InputError where rings are needed
-/// and cannot be recovered.
+/// where a normal is among them, features where a line or a patch is. Before the points are thinned
+/// they are de-skewed by the lidar's `velocity`, unless it is zero (see Deskew). Normals and
+/// matching share one search. The result does not depend on `threads`. Throws InputError where
+/// rings are needed and cannot be recovered.
 PreparedScan Prepare(PointCloud scan, unsigned needs, const PreparationOptions& options,
-                     int threads);
+                     int threads, const Vec6& velocity = Vec6::Zero());
 
 }  // namespace icpscape
 

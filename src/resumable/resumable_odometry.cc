@@ -12,6 +12,17 @@ namespace {
 
 using Clock = std::chrono::steady_clock;
 
+// Of all files that the scan comes from.
+std::string HashOf(const Scan& scan, const PointCloud& cloud) {
+  const std::string hash = Sha256OfScan(scan.file, cloud);
+  return scan.times_file.empty() ? hash : Sha256OfText(hash + Sha256(scan.times_file));
+}
+
+OdometryOptions WithTimesOf(const ScanSequence& sequence, OdometryOptions options) {
+  options.times_are_measured = sequence.times_are_measured;
+  return options;
+}
+
 double SecondsSince(Clock::time_point start) {
   return std::chrono::duration<double>(Clock::now() - start).count();
 }
@@ -23,7 +34,7 @@ ResumableOdometry::ResumableOdometry(ScanSequence sequence, OdometryOptions opti
     : sequence_(std::move(sequence)),
       journal_(*journal),
       num_known_(journal->records().size()),
-      odometry_(std::move(options)) {
+      odometry_(WithTimesOf(sequence_, std::move(options))) {
   if (map_voxel_m > 0) {
     map_.emplace(map_voxel_m);
   }
@@ -44,10 +55,12 @@ void ResumableOdometry::ForScans(std::size_t begin, std::size_t end,
                                  const Progress& progress) {
   for (std::size_t i = begin; i < end; ++i) {
     take(i);
-    if (map_ && (i == 0 || records_.back().result.registered)) {
+    const FrameResult& result = records_.back().result;
+    // The first scan of several is de-skewed only when the second has been registered.
+    const bool is_first = i == 0 && (!result.deskewed || sequence_.scans.size() == 1);
+    if (map_ && (is_first || result.registered)) {
       NamingTheScan(i, [&] {
-        map_->Insert(odometry_.last_scan()->cloud(), records_.back().result.T_world_lidar,
-                     static_cast<int>(i));
+        map_->Insert(odometry_.last_scan()->cloud(), result.T_world_lidar, static_cast<int>(i));
       });
     }
     if (progress) {
@@ -74,11 +87,11 @@ void ResumableOdometry::ReplayScan(std::size_t i) {
   const FrameRecord record =
       ParseFrameRecord(journal_.records()[i], "journal, scan " + sequence_.scans[i].name);
   PointCloud scan = Read(i);
-  if (record.scan_sha256 != Sha256OfScan(sequence_.scans[i].file, scan)) {
+  if (record.scan_sha256 != HashOf(sequence_.scans[i], scan)) {
     throw InputError(sequence_.scans[i].Place() +
                      ": is not the scan of the journal; expected it unchanged, or a restart.");
   }
-  NamingTheScan(i, [&] { odometry_.Replay(std::move(scan), record.result); });
+  NamingTheScan(i, [&] { odometry_.Replay(std::move(scan), record.result, sequence_.times_s[i]); });
   records_.push_back(record);
 }
 
@@ -86,10 +99,10 @@ void ResumableOdometry::RegisterScan(std::size_t i) {
   FrameRecord record;
   const Clock::time_point start = Clock::now();
   PointCloud scan = Read(i);
-  record.scan_sha256 = Sha256OfScan(sequence_.scans[i].file, scan);
+  record.scan_sha256 = HashOf(sequence_.scans[i], scan);
   record.read_s = SecondsSince(start);
   const Clock::time_point read = Clock::now();
-  NamingTheScan(i, [&] { record.result = odometry_.Add(std::move(scan)); });
+  NamingTheScan(i, [&] { record.result = odometry_.Add(std::move(scan), sequence_.times_s[i]); });
   record.odometry_s = SecondsSince(read);
   journal_.Append(FormatFrameRecord(record));
   records_.push_back(record);

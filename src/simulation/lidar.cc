@@ -42,7 +42,7 @@ double EffectiveReflectivity(const RayHit& hit, Random* random) {
 }
 
 struct Ring {
-  std::vector<float> x, y, z, intensity;
+  std::vector<float> x, y, z, intensity, time_s;
   std::vector<std::int32_t> label;
 };
 
@@ -81,7 +81,7 @@ int LastRingPastCar(double azimuth_rad) {
   return kLastRing[std::min<std::size_t>(static_cast<std::size_t>(degrees / 5), 35)];
 }
 
-PointCloud ScanWorld(const RayCaster& standing, const RayCaster* moving, const SE3d& T_world_lidar,
+PointCloud ScanWorld(const RayCaster& standing, const RayCaster* moving, const LidarMotion& motion,
                      const LidarOptions& options, std::uint64_t sensor_key, std::uint64_t key,
                      int threads) {
   const int steps = options.AzimuthSteps();
@@ -94,7 +94,6 @@ PointCloud ScanWorld(const RayCaster& standing, const RayCaster* moving, const S
     const double phase = laser.Uniform() + Random(key).Uniform();
     const double elevation = RingElevation(ring_index);
     const double height = RingHeight(ring_index);
-    const Vec3 origin = T_world_lidar * Vec3(0, 0, height);
     for (int j = 0; j < steps; ++j) {
       const double azimuth = (j + phase - std::floor(phase)) * 2 * M_PI / steps;
       if (ring_index > LastRingPastCar(azimuth)) {
@@ -102,11 +101,15 @@ PointCloud ScanWorld(const RayCaster& standing, const RayCaster* moving, const S
       }
       const Vec3 ray(std::cos(elevation) * std::cos(azimuth),
                      std::cos(elevation) * std::sin(azimuth), std::sin(elevation));
+      const double time_s = options.skewed ? LidarMotion::TimeOf(azimuth) : 0;
+      const SE3d T_world_lidar = options.skewed ? motion.At(time_s) : motion.T_world_lidar;
+      const Vec3 origin = T_world_lidar * Vec3(0, 0, height);
       const Vec3 direction = T_world_lidar.R() * ray;
       RayHit hit;
       bool found = standing.Cast(origin, direction, options.max_range_m, &hit);
       if (moving != nullptr) {
-        found |= moving->Cast(origin, direction, found ? hit.range_m : options.max_range_m, &hit);
+        found |= moving->Cast(origin, direction, found ? hit.range_m : options.max_range_m, &hit,
+                              time_s / kScanPeriodS + 0.5);
       }
       if (!found) {
         continue;
@@ -129,6 +132,9 @@ PointCloud ScanWorld(const RayCaster& standing, const RayCaster* moving, const S
       ring.intensity.push_back(
           static_cast<float>(std::round(100 * std::min(0.99, reflectivity)) / 100));
       ring.label.push_back(hit.surface.PointLabel());
+      if (options.skewed) {
+        ring.time_s.push_back(static_cast<float>(time_s));
+      }
     }
   };
   // Not ParallelFor: Embree holds oneTBB to one thread here.
@@ -158,6 +164,7 @@ PointCloud ScanWorld(const RayCaster& standing, const RayCaster* moving, const S
     append(ring.z, &cloud.z);
     append(ring.intensity, &cloud.intensity);
     append(ring.label, &cloud.label);
+    append(ring.time_s, &cloud.time_s);
     cloud.ring.resize(cloud.size(), i);
   }
   return cloud;

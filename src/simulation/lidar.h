@@ -5,6 +5,7 @@
 #include <cstdint>
 
 #include "icpscape/cloud/point_cloud.h"
+#include "icpscape/simulation/lidar_motion.h"
 #include "icpscape/simulation/ray_caster.h"
 
 namespace icpscape {
@@ -26,6 +27,9 @@ struct LidarOptions {
   double min_range_m = 0.9;
   /// ... and a surface of 0.80 reflectivity up to here.
   double max_range_m = 120;
+  /// Whether all moves while the lidar turns, itself included: then each point is seen from where
+  /// the lidar is at its time, and the points have times. Else a scan is a snapshot.
+  bool skewed = false;
 
   /// Throws UsageError naming the value that no lidar can have.
   void Check() const;
@@ -45,16 +49,18 @@ double RingHeight(int ring);
 /// rings below end on roof and bonnet and bring nothing back.
 int LastRingPastCar(double azimuth_rad);
 
-/// The scan of a snapshot of the world from T_world_lidar, in the lidar's frame, with intensity,
-/// rings and labels; ring by ring from the uppermost, counter-clockwise from forward.
+/// The scan of the world, in the lidar's frame, with intensity, rings and labels; ring by ring from
+/// the uppermost, counter-clockwise from forward.
 ///
-/// KITTI's scans are de-skewed by the car's own motion. Here all rays belong to one instant. For
-/// everything at rest that is the same; what moves is not smeared (at 6 m/s relative to the lidar,
-/// abeam and seen within a quarter of a turn, by up to 15 cm).
+/// KITTI's scans are de-skewed by the car's own motion. In a snapshot all rays belong to the
+/// instant of the motion's pose. For everything at rest that is the same; what moves is not smeared
+/// (at 6 m/s relative to the lidar, abeam and seen within a quarter of a turn, by up to 15 cm). In
+/// a skewed scan each ray has its time and leaves from the pose at that time; coordinates are those
+/// that the lidar measures then. The span of `moving` is the turn.
 ///
 /// Random numbers depend on `key` (one per scan), ring and azimuth only, and the lasers' constant
 /// errors on `sensor_key`: the scan is the same for any number of threads.
-PointCloud ScanWorld(const RayCaster& standing, const RayCaster* moving, const SE3d& T_world_lidar,
+PointCloud ScanWorld(const RayCaster& standing, const RayCaster* moving, const LidarMotion& motion,
                      const LidarOptions& options, std::uint64_t sensor_key, std::uint64_t key,
                      int threads);
 

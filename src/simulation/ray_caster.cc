@@ -13,10 +13,12 @@ namespace icpscape {
 
 struct RayCaster::Impl {
   Mesh mesh;
+  std::vector<std::array<float, 3>> vertices_at_end;
   RTCDevice device = nullptr;
   RTCScene scene = nullptr;
 
-  explicit Impl(Mesh m) : mesh(std::move(m)) {
+  Impl(Mesh m, std::vector<std::array<float, 3>> at_end)
+      : mesh(std::move(m)), vertices_at_end(std::move(at_end)) {
     // Not "threads=1", which would hold all of oneTBB to one thread while the device lives.
     device = rtcNewDevice("isa=sse2");
     if (device == nullptr) {
@@ -27,11 +29,18 @@ struct RayCaster::Impl {
     // Robust: no ray slips between two triangles of one edge.
     rtcSetSceneFlags(scene, RTC_SCENE_FLAG_ROBUST);
     if (mesh.size() > 0) {
-      mesh.vertices.push_back({0, 0, 0});  // Embree reads 16 bytes of the last vertex.
       RTCGeometry geometry = rtcNewGeometry(device, RTC_GEOMETRY_TYPE_TRIANGLE);
-      rtcSetSharedGeometryBuffer(geometry, RTC_BUFFER_TYPE_VERTEX, 0, RTC_FORMAT_FLOAT3,
-                                 mesh.vertices.data(), 0, sizeof(mesh.vertices[0]),
-                                 mesh.vertices.size() - 1);
+      const auto set_vertices = [&](unsigned step, std::vector<std::array<float, 3>>* vertices) {
+        vertices->push_back({0, 0, 0});  // Embree reads 16 bytes of the last vertex.
+        rtcSetSharedGeometryBuffer(geometry, RTC_BUFFER_TYPE_VERTEX, step, RTC_FORMAT_FLOAT3,
+                                   vertices->data(), 0, sizeof(vertices->front()),
+                                   vertices->size() - 1);
+      };
+      if (!vertices_at_end.empty()) {
+        rtcSetGeometryTimeStepCount(geometry, 2);
+        set_vertices(1, &vertices_at_end);
+      }
+      set_vertices(0, &mesh.vertices);
       rtcSetSharedGeometryBuffer(geometry, RTC_BUFFER_TYPE_INDEX, 0, RTC_FORMAT_UINT3,
                                  mesh.triangles.data(), 0, sizeof(mesh.triangles[0]),
                                  mesh.triangles.size());
@@ -58,13 +67,14 @@ struct RayCaster::Impl {
   }
 };
 
-RayCaster::RayCaster(Mesh mesh) : impl_(std::make_unique<Impl>(std::move(mesh))) {}
+RayCaster::RayCaster(Mesh mesh, std::vector<std::array<float, 3>> vertices_at_end)
+    : impl_(std::make_unique<Impl>(std::move(mesh), std::move(vertices_at_end))) {}
 RayCaster::~RayCaster() = default;
 RayCaster::RayCaster(RayCaster&&) noexcept = default;
 RayCaster& RayCaster::operator=(RayCaster&&) noexcept = default;
 
-bool RayCaster::Cast(const Vec3& origin, const Vec3& direction, double max_range_m,
-                     RayHit* hit) const {
+bool RayCaster::Cast(const Vec3& origin, const Vec3& direction, double max_range_m, RayHit* hit,
+                     double share) const {
   RTCRayHit query{};
   query.ray.org_x = static_cast<float>(origin.x());
   query.ray.org_y = static_cast<float>(origin.y());
@@ -73,6 +83,7 @@ bool RayCaster::Cast(const Vec3& origin, const Vec3& direction, double max_range
   query.ray.dir_y = static_cast<float>(direction.y());
   query.ray.dir_z = static_cast<float>(direction.z());
   query.ray.tfar = static_cast<float>(max_range_m);
+  query.ray.time = static_cast<float>(share);
   query.ray.mask = 0xFFFFFFFFU;
   query.hit.geomID = RTC_INVALID_GEOMETRY_ID;
   RTCIntersectContext context;

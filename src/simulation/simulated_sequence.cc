@@ -47,6 +47,7 @@ ScanSequence SimulatedSequence(const std::string& scene, std::uint64_t seed,
   sequence.place = scene;
   sequence.truth_is_exact = true;
   sequence.times_are_measured = true;
+  sequence.times_from = "simulation";
   std::function<World()> make_world;
   double first_time_s = 0;
   if (scene == kTown) {
@@ -59,14 +60,15 @@ ScanSequence SimulatedSequence(const std::string& scene, std::uint64_t seed,
     first_time_s = -kScanPeriodS;
   }
   const auto simulator = std::make_shared<LazySimulator>(make_world, lidar, seed);
-  for (std::size_t i = 0; i < sequence.T_world_lidar.size(); ++i) {
+  const std::vector<LidarMotion> motions = MotionsThrough(sequence.T_world_lidar);
+  for (std::size_t i = 0; i < motions.size(); ++i) {
     const double since_start_s = static_cast<double>(i) * kScanPeriodS;
     const double time_s = first_time_s + since_start_s;  // Of the world, whose traffic moves.
     sequence.times_s.push_back(since_start_s);
     sequence.scans.push_back(
         {"scan " + std::to_string(i), "",
-         [simulator, T = sequence.T_world_lidar[i], time_s, index = static_cast<int>(i),
-          threads](DroppedPoints*) { return simulator->Get().Scan(T, time_s, index, threads); }});
+         [simulator, motion = motions[i], time_s, index = static_cast<int>(i), threads](
+             DroppedPoints*) { return simulator->Get().Scan(motion, time_s, index, threads); }});
   }
   return sequence;
 }

@@ -21,13 +21,16 @@ Simulator::Simulator(World world, const LidarOptions& options, std::uint64_t see
       seed_(seed),
       standing_(std::move(world_.standing)) {}
 
-PointCloud Simulator::Scan(const SE3d& T_world_lidar, double time_s, int index, int threads,
+PointCloud Simulator::Scan(const LidarMotion& motion, double time_s, int index, int threads,
                            std::uint64_t sensor) const {
   std::optional<RayCaster> moving;
   if (!world_.moving.empty()) {
-    moving.emplace(world_.MovingAt(time_s));
+    const double half_s = options_.skewed ? kScanPeriodS / 2 : 0;
+    moving.emplace(world_.MovingAt(time_s - half_s), options_.skewed
+                                                         ? world_.MovingAt(time_s + half_s).vertices
+                                                         : std::vector<std::array<float, 3>>());
   }
-  return ScanWorld(standing_, moving ? &*moving : nullptr, T_world_lidar, options_,
+  return ScanWorld(standing_, moving ? &*moving : nullptr, motion, options_,
                    sensor == 0 ? MixKeys(seed_, 101) : MixKeys(seed_, 101, sensor),
                    MixKeys(seed_, 102, index), threads);
 }

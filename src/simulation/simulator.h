@@ -16,9 +16,10 @@ class Simulator {
   /// Throws UsageError where no lidar can have those options.
   Simulator(World world, const LidarOptions& options, std::uint64_t seed);
 
-  /// `sensor` 0 is the lidar of the seed; every other number is another copy of its model, whose
-  /// lasers have constant errors of their own.
-  PointCloud Scan(const SE3d& T_world_lidar, double time_s, int index, int threads,
+  /// The scan whose instant is `time_s`; in a skewed one vehicles move as well. `sensor` 0 is the
+  /// lidar of the seed; every other number is another copy of its model, whose lasers have constant
+  /// errors of their own.
+  PointCloud Scan(const LidarMotion& motion, double time_s, int index, int threads,
                   std::uint64_t sensor = 0) const;
 
  private:

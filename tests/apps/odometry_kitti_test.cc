@@ -68,6 +68,35 @@ TEST_F(OdometryOnKitti, AgreesForwardsAndBackwards) {
   EXPECT_LT((forwards * backwards).t().norm(), 0.05);
 }
 
+// 2.7 m a scan along the motorway of sequence 01, as a raw drive without scans 8 to 11.
+TEST_F(OdometryOnKitti, BridgesAGap) {
+  ICPSCAPE_SKIP_WITHOUT_KITTI();
+  const std::string simulated = (folder_.path() / "simulated").string();
+  ASSERT_EQ(RunProgram("simulate", {"--kitti_root=" + KittiRoot().string(), "--sequence=01",
+                                    "--frames=300:319", "--out=" + simulated})
+                .code,
+            0);
+  std::string times;
+  for (int i = 0; i < 20; ++i) {
+    if (i >= 8 && i < 12) {
+      times += "\n";
+      continue;
+    }
+    times += std::to_string(0.1 * i) + "\n";
+    const std::string name = (i < 10 ? "00000" : "0000") + std::to_string(i) + ".bin";
+    folder_.Write("drive/velodyne_points/data/0000" + name,
+                  ReadFile(simulated + "/sequences/01/velodyne/" + name));
+  }
+  folder_.Write("drive/velodyne_points/timestamps.txt", times);
+  const Outcome outcome = Run({"--scans=" + (folder_.path() / "drive").string()});
+  ASSERT_EQ(outcome.code, 0) << outcome.err;
+  EXPECT_NE(outcome.out.find("times: timestamps.txt, 1 gap of 0.5 s\npath: 50.7 m"),
+            std::string::npos)
+      << outcome.out;
+  const SE3d truth = *OpenKittiSequence(simulated, "01").Motion(0, 19);
+  EXPECT_LT(DistanceM(Poses().back(), truth), 0.1);
+}
+
 TEST_F(OdometryOnKitti, RunsThroughARawDrive) {
   const std::filesystem::path drive = KittiRoot() / "raw/2011_09_26/drive_0048";
   if (!std::filesystem::is_directory(drive)) {

@@ -147,6 +147,7 @@ TEST(OdometryCommandLine, IsRefusedWhereItIsWrong) {
   refuse({"--map_every=0"}, "--map_every=0: expected at least 1");
   refuse({"--adaptive_gate_m=nan"}, "--adaptive_gate_m=nan: expected a length in m, or 0");
   refuse({"--write_map_voxel_m=-1"}, "--write_map_voxel_m=-1: expected a number of at least 0");
+  refuse({"--deskew=maybe"}, "expected one of auto, on, off");
   refuse({"--prediction=crystal_ball"}, "expected one of constant_velocity, none");
   refuse({"--frames=5:1"}, "--frames=5:1: expected FIRST:LAST with 0 <= FIRST <= LAST");
   refuse({"--scans=no_scans"}, "expected one of --scene=NAME, --kitti_root=DIR and --scans=DIR.");
@@ -161,6 +162,8 @@ TEST(OdometryCommandLine, IsRefusedWhereItIsWrong) {
          "adaptive gate rejects pairs");
   refuse({"--max_iterations=0"}, "--max_iterations");
   refuse({"stray"}, "stray argument \"stray\"");
+  ExpectRefusal(RunProgram("odometry", {"--scene=town", "--timestamps=a.txt", "--out=" + out}), 1,
+                "--timestamps=a.txt: expected --scans or --kitti_root with it");
   ExpectRefusal(RunProgram("odometry", {}), 1, "expected one of --scene=NAME");
   EXPECT_FALSE(std::filesystem::exists(out));
 }
@@ -190,7 +193,8 @@ TEST_F(OdometryApp, TakesAFolderOfScans) {
       RunProgram("odometry", {"--scans=" + Path("drive"), "--ground_truth=" + Path("truth.txt"),
                               "--frames=1:3", "--reverse", "--out=" + Path("out")});
   ASSERT_EQ(outcome.code, 0) << outcome.err;
-  EXPECT_THAT(outcome.out, HasSubstr("drive reversed: 3 scans, 11.ply to 9.ply, no times: 10 Hz"));
+  EXPECT_THAT(outcome.out, AllOf(HasSubstr("drive reversed: 3 scans, 11.ply to 9.ply\n"),
+                                 HasSubstr("times: none, taken as 10 Hz\n")));
   const std::vector<SE3d> poses = ReadTrajectory(Path("out/trajectory_kitti.txt")).T_world_body;
   ASSERT_EQ(poses.size(), 3U);  // Without a camera the poses are the lidar's.
   const SE3d expected = TheDrive().T_world_lidar[3].Inverse() * TheDrive().T_world_lidar[1];
@@ -198,6 +202,27 @@ TEST_F(OdometryApp, TakesAFolderOfScans) {
   EXPECT_LT(poses[2].t().x(), -1);  // Backwards.
   EXPECT_LT(nlohmann::json::parse(ReadFile(Path("out/manifest.json")))["results"]["end_off_m"],
             0.03);
+}
+
+// Sorted byte by byte, 10 to 12 come before 2, and the path is more than twice as long.
+TEST_F(OdometryApp, TakesNamesInNaturalOrder) {
+  std::filesystem::create_directories(Path("drive"));
+  Trajectory truth;
+  for (std::size_t i = 0; i < kScans; ++i) {
+    WritePly(Path("drive/scan_" + std::to_string(i + 1) + ".ply"), TheDrive().scans[i]);
+    truth.T_world_body.push_back(TheDrive().T_world_lidar[i]);
+    truth.times_s.push_back(static_cast<double>(i));
+  }
+  folder_.Write("drive/.1234.scan_3.ply", "not yet whole");
+  WriteTumTrajectory(Path("truth.txt"), truth);
+  const Outcome outcome = RunProgram(
+      "odometry",
+      {"--scans=" + Path("drive"), "--ground_truth=" + Path("truth.txt"), "--out=" + Path("out")});
+  ASSERT_EQ(outcome.code, 0) << outcome.err;
+  EXPECT_THAT(outcome.out,
+              AllOf(HasSubstr("12 scans, scan_1.ply to scan_12.ply"), HasSubstr("path: 8.8 m")));
+  EXPECT_LT(nlohmann::json::parse(ReadFile(Path("out/manifest.json")))["results"]["end_off_m"],
+            0.05);
 }
 
 TEST_F(OdometryApp, TakesFoldersOfAnyName) {

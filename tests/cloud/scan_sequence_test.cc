@@ -4,6 +4,8 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <cmath>
+
 #include "icpscape/common/error.h"
 #include "tests/support/message_of.h"
 
@@ -74,6 +76,51 @@ TEST(ScanSequence, APairKnowsWhatItsFramesKnow) {
   EXPECT_EQ(MessageOf([&] { drive.Pair(3, 1); }),
             "a/drive: no scan 3 among 3 scans, which are numbered from 0.");
   EXPECT_THAT(MessageOf([&] { drive.Pair(1, -1); }), HasSubstr("no scan -1"));
+}
+
+// By hand: the predicted motion is the one over the first second, for the half second that follows.
+TEST(ScanSequence, APredictedPoseGoesByTime) {
+  ScanSequence drive = Drive(3);
+  drive.T_world_lidar = {SE3d(), SE3d(Mat3::Identity(), Vec3(4, 0, 0)),
+                         SE3d(Mat3::Identity(), Vec3(7, 0, 0))};
+  drive.times_s = {5, 6, 6.5};
+  EXPECT_LT((drive.Pair(2, 1).T_predicted->t() - Vec3(2, 0, 0)).norm(), 1e-12);
+  EXPECT_LT((drive.Pair(1, 2).T_predicted->t() - Vec3(-2, 0, 0)).norm(), 1e-12);
+  drive.times_s[2] = 7.05;  // Jitter.
+  EXPECT_EQ(drive.Pair(2, 1).T_predicted->t(), Vec3(4, 0, 0));
+  drive.times_s[2] = std::nan("");
+  EXPECT_EQ(drive.Pair(2, 1).T_predicted->t(), Vec3(4, 0, 0));
+}
+
+TEST(ScanSequence, SaysWhereItsTimesComeFrom) {
+  ScanSequence drive = Drive(5);
+  drive.times_from = "a file";
+  EXPECT_EQ(drive.TimesText(), "a file");
+  drive.times_s = {0, 0.1, 0.2, 0.7004, 0.8};
+  EXPECT_EQ(drive.TimesText(), "a file, 1 gap of 0.5 s");
+  drive.times_s = {0, 0.1, 0.3, 0.4, 1.65};
+  EXPECT_EQ(drive.TimesText(), "a file, 2 gaps, the longest of 1.25 s");
+  EXPECT_EQ(Drive(1).TimesText(), "");
+}
+
+TEST(ScanSequence, IsTurnedAroundWithItsTimes) {
+  ScanSequence drive = Drive(4);
+  drive.times_s = {10, 10.25, 11.25, 11.5};
+  drive.scans[0].read = [](DroppedPoints*) {
+    PointCloud cloud;
+    cloud.x = cloud.y = cloud.z = {1, 2};
+    cloud.time_s = {-0.25, 0.5};
+    return cloud;
+  };
+  drive.Reverse();
+  EXPECT_THAT(drive.times_s, ElementsAre(10, 10.25, 11.25, 11.5));
+  EXPECT_EQ(drive.scans[0].name, "scan 3");
+  DroppedPoints dropped;
+  EXPECT_THAT(drive.scans[3].read(&dropped).time_s, ElementsAre(0.25, -0.5));
+  EXPECT_THAT(drive.scans[0].read(&dropped).x, ElementsAre(3));
+  drive.times_s = {10, 10.25, 10.5, 11.5};
+  drive.Reverse();
+  EXPECT_THAT(drive.times_s, ElementsAre(10, 11, 11.25, 11.5));
 }
 
 TEST(ScanPair, IsTurnedAround) {

@@ -11,6 +11,7 @@
 #include "icpscape/io/sequences.h"
 #include "icpscape/simulation/scenes.h"
 #include "icpscape/simulation/simulated_sequence.h"
+#include "tests/support/message_of.h"
 #include "tests/support/run_program.h"
 
 namespace icpscape {
@@ -44,7 +45,16 @@ class Dataset : public ::testing::Test {
     return cloud;
   }
 
-  DatasetSummary Write(const std::string& parameters = "p", int count = 3) {
+  static PointCloud CloudWithTimes(int i) {
+    PointCloud cloud = Cloud(i);
+    for (std::size_t j = 0; j < cloud.size(); ++j) {
+      cloud.time_s.push_back(static_cast<float>(j) * 0.001F - 0.05F);
+    }
+    return cloud;
+  }
+
+  DatasetSummary Write(const std::string& parameters = "p", int count = 3,
+                       bool point_times = false) {
     DatasetOptions options;
     options.root = root_;
     options.name = "street";
@@ -56,7 +66,8 @@ class Dataset : public ::testing::Test {
       poses.push_back(SE3d::Exp(xi));
     }
     poses_ = poses;
-    return WriteDataset(options, poses, Cloud);
+    options.point_times = point_times;
+    return WriteDataset(options, poses, point_times ? CloudWithTimes : Cloud);
   }
 
   fs::path Sequence() const { return root_ / "sequences" / "street"; }
@@ -153,6 +164,28 @@ TEST_F(Dataset, TheProgramAnswersMistakesInOneSentence) {
   refuse({"--kitti_root=/nowhere", "--sequence=00"}, 2, "/nowhere/sequences/00: no such folder");
   EXPECT_TRUE(!fs::exists(root_) || fs::is_empty(root_));
   refuse({"--scene=highway", "--out=/proc/nowhere"}, 2, "/proc/nowhere");
+}
+
+TEST_F(Dataset, HasTheTimesOfPoints) {
+  Write("p", 3, true);
+  const auto read = [&](std::size_t i) {
+    DroppedPoints dropped;
+    return OpenKittiSequence(root_, "street").scans[i].read(&dropped);
+  };
+  EXPECT_EQ(read(2).time_s, CloudWithTimes(2).time_s);
+  EXPECT_EQ(Write("p", 3, true).kept, 3);
+  const fs::path times = Sequence() / "times" / "000001.time";
+  EXPECT_EQ(OpenKittiSequence(root_, "street").scans[1].times_file, times);
+  fs::resize_file(times, 396);
+  EXPECT_EQ(testing_support::MessageOf([&] { read(1); }),
+            times.string() +
+                ": 396 bytes; expected a float32 for each of the scan's 100 usable "
+                "points.");
+  EXPECT_EQ(Write("p", 3, true).simulated, 1);
+  EXPECT_EQ(read(1).time_s, CloudWithTimes(1).time_s);
+  Write("without");
+  EXPECT_TRUE(read(2).time_s.empty());
+  EXPECT_FALSE(fs::exists(times));
 }
 
 TEST_F(Dataset, AWrittenSceneIsTheSceneItself) {

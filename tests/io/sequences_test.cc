@@ -148,7 +148,7 @@ TEST_F(ScanSequenceTest, OrdersAFolderByNumber) {
   const ScanSequence sequence = OpenScanFolder(Path("drive"));
   EXPECT_EQ(sequence.title, "drive");
   EXPECT_THAT(NamesOf(sequence), ElementsAre("0.pcd", "1.pcd", "2.pcd", "10.pcd"));
-  EXPECT_THAT(sequence.times_s, ElementsAre(0, 0.1, 0.2, 3 * 0.1));
+  EXPECT_THAT(sequence.times_s, ElementsAre(0, 0.1, 0.2, 1));  // 3 to 9 are missing.
   EXPECT_FALSE(sequence.times_are_measured);
   EXPECT_THAT(sequence.T_world_lidar, IsEmpty());
   EXPECT_FALSE(sequence.T_camera_lidar);
@@ -162,6 +162,59 @@ TEST_F(ScanSequenceTest, OrdersAFolderByTimeStampsAndByName) {
   WriteScans("named", {"scan_b.bin", "scan_c.bin", "scan_a.bin", "7.bin"});
   EXPECT_THAT(NamesOf(OpenScanFolder(Path("named"))),
               ElementsAre("7.bin", "scan_a.bin", "scan_b.bin", "scan_c.bin"));
+}
+
+TEST_F(ScanSequenceTest, OrdersAFolderNaturally) {
+  WriteScans("unpadded", {"scan_10.pcd", "scan_2.pcd", "scan_1.pcd", "scan_11.pcd"});
+  EXPECT_THAT(NamesOf(OpenScanFolder(Path("unpadded"))),
+              ElementsAre("scan_1.pcd", "scan_2.pcd", "scan_10.pcd", "scan_11.pcd"));
+  WriteScans("numbers", {"run2_9.ply", "Run10_1.ply", "run2_10.ply", "run2.ply"});
+  EXPECT_THAT(NamesOf(OpenScanFolder(Path("numbers"))),
+              ElementsAre("run2.ply", "run2_9.ply", "run2_10.ply", "Run10_1.ply"));
+}
+
+// Stamps need not have equally many digits behind their point, nor be without letters.
+TEST_F(ScanSequenceTest, OrdersAFolderByNumbersBehindLetters) {
+  WriteScans("stamped",
+             {"lidar_1317617736.05.ply", "lidar_1317617735.9.ply", "lidar_1317617735.85.ply"});
+  EXPECT_THAT(
+      NamesOf(OpenScanFolder(Path("stamped"))),
+      ElementsAre("lidar_1317617735.85.ply", "lidar_1317617735.9.ply", "lidar_1317617736.05.ply"));
+  WriteScans("negative", {"-1.5.ply", "-2.ply", "1.ply", "0.5.ply"});
+  EXPECT_THAT(NamesOf(OpenScanFolder(Path("negative"))),
+              ElementsAre("-2.ply", "-1.5.ply", "0.5.ply", "1.ply"));
+  WriteScans("equal", {"010.ply", "10.ply", "9.ply", "011.ply"});
+  EXPECT_THAT(NamesOf(OpenScanFolder(Path("equal"))),
+              ElementsAre("9.ply", "010.ply", "10.ply", "011.ply"));
+}
+
+// An unfinished file of ours, and one of a Mac's.
+TEST_F(ScanSequenceTest, PassesOverHiddenFiles) {
+  WriteScans("drive", {"0.bin", "1.bin", ".1234.2.bin", "._1.bin", "._1.pcd"});
+  EXPECT_THAT(NamesOf(OpenScanFolder(Path("drive"))), ElementsAre("0.bin", "1.bin"));
+  WriteScans("hidden", {".0.bin"});
+  EXPECT_THAT(FolderMessage("hidden"), HasSubstr("hidden: no scan"));
+  WriteScans("raw/velodyne_points/data", {"0000000000.bin", ".77.0000000001.bin"});
+  EXPECT_THAT(NamesOf(OpenScanFolder(Path("raw"))), ElementsAre("0000000000.bin"));
+}
+
+TEST_F(ScanSequenceTest, FindsTheTimesOfAFolder) {
+  WriteScans("drive", {"scan_7.bin", "scan_8.bin", "scan_12.bin"});
+  ScanSequence sequence = OpenScanFolder(Path("drive"));
+  EXPECT_THAT(sequence.times_s, ElementsAre(0, 0.1, 0.5));
+  EXPECT_EQ(sequence.TimesText(), "numbers of the scans, taken as 10 Hz, 1 gap of 0.4 s");
+  folder_.Write("drive/times.txt", "3\n3.5\n4\n");
+  sequence = OpenScanFolder(Path("drive"));
+  EXPECT_THAT(sequence.times_s, ElementsAre(3, 3.5, 4));
+  EXPECT_TRUE(sequence.times_are_measured);
+  EXPECT_EQ(sequence.TimesText(), "times.txt");
+  EXPECT_THAT(sequence.inputs, ElementsAre(Path("drive/times.txt")));
+  folder_.Write("drive/times.txt", "3\n3.5\n");
+  EXPECT_THAT(FolderMessage("drive"), HasSubstr("2 times; expected one for each of the 3 scans"));
+  WriteScans("stamped", {"1403636579763555584.bin", "1403636579863555584.bin"});
+  sequence = OpenScanFolder(Path("stamped"));
+  EXPECT_TRUE(sequence.times_are_measured);
+  EXPECT_NEAR(sequence.times_s[1] - sequence.times_s[0], 0.1, 1e-6);
 }
 
 TEST_F(ScanSequenceTest, TakesARangeOfAFolder) {
@@ -234,7 +287,9 @@ TEST_F(ScanSequenceTest, IsTurnedAround) {
   EXPECT_EQ(sequence.title, "KITTI 03 reversed");
   EXPECT_THAT(NamesOf(sequence),
               ElementsAre("000003.bin", "000002.bin", "000001.bin", "000000.bin"));
-  EXPECT_EQ(sequence.times_s, forwards.times_s);  // Time still goes forwards.
+  // Time still goes forwards, from gap to gap the other way.
+  EXPECT_THAT(sequence.times_s, ElementsAre(0, testing::DoubleNear(0.113, 1e-12),
+                                            testing::DoubleNear(0.2165, 1e-12), 0.32));
   EXPECT_EQ(sequence.T_world_lidar[0].Matrix(), forwards.T_world_lidar[3].Matrix());
   EXPECT_EQ(sequence.T_world_lidar[3].Matrix(), forwards.T_world_lidar[0].Matrix());
 }

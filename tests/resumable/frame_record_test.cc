@@ -34,6 +34,7 @@ void ExpectSame(const FrameRecord& a, const FrameRecord& b) {
   EXPECT_TRUE(SameBits(a.read_s, b.read_s));
   EXPECT_TRUE(SameBits(a.odometry_s, b.odometry_s));
   EXPECT_EQ(a.result.registered, b.result.registered);
+  EXPECT_EQ(a.result.deskewed, b.result.deskewed);
   EXPECT_EQ(a.result.termination, b.result.termination);
   EXPECT_EQ(a.result.converged, b.result.converged);
   EXPECT_EQ(a.result.predicted_directions, b.result.predicted_directions);
@@ -55,6 +56,7 @@ FrameRecord Example() {
   record.read_s = 0.125;
   record.odometry_s = 0.1;
   record.result.registered = true;
+  record.result.deskewed = true;
   record.result.termination = Termination::kNoDescent;
   record.result.converged = true;
   record.result.predicted_directions = 2;
@@ -108,7 +110,7 @@ TEST(FrameRecord, ReadsBackNan) {
 TEST(FrameRecord, RefusesGarbage) {
   const std::string good = FormatFrameRecord(Example());
   const std::vector<std::string> words = Split(good, ' ');
-  ASSERT_EQ(words.size(), 1U + 13U + 12U + 12U);
+  ASSERT_EQ(words.size(), 1U + 14U + 12U + 12U);
   const auto refused = [](const std::string& text) {
     return MessageOf([&] { ParseFrameRecord(text, "the place"); }) ==
            "the place: no record of a scan; expected a journal of an odometry.";
@@ -126,13 +128,13 @@ TEST(FrameRecord, RefusesGarbage) {
     shorter.erase(shorter.begin() + static_cast<std::ptrdiff_t>(i));
     EXPECT_TRUE(refused(Join(shorter, " "))) << i;
   }
-  for (std::size_t i = 14; i < words.size(); ++i) {  // Poses.
+  for (std::size_t i = 15; i < words.size(); ++i) {  // Poses.
     std::vector<std::string> changed = words;
     changed[i] = "nan";
     EXPECT_TRUE(refused(Join(changed, " "))) << i;
   }
   // All but rmse, gate_m and the times.
-  for (const std::size_t i : {1U, 2U, 3U, 4U, 5U, 6U, 7U, 10U, 11U}) {
+  for (const std::size_t i : {1U, 2U, 3U, 4U, 5U, 6U, 7U, 8U, 11U, 12U}) {
     for (const char* bad : {"nan", "0.5", "-1", "1e300"}) {
       std::vector<std::string> changed = words;
       changed[i] = bad;
@@ -143,7 +145,7 @@ TEST(FrameRecord, RefusesGarbage) {
   changed[1] = "2";  // Neither false nor true.
   EXPECT_TRUE(refused(Join(changed, " ")));
   changed = words;
-  changed[2] = "9";  // There are nine terminations.
+  changed[3] = "9";  // There are nine terminations.
   EXPECT_TRUE(refused(Join(changed, " ")));
   EXPECT_FALSE(refused(good));
 }

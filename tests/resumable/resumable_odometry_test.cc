@@ -69,6 +69,31 @@ TEST_F(Resumable, GoesOnBitForBit) {
       0.05);
 }
 
+// Scans 0, 1, 4 and 5, with their times beside them.
+TEST_F(Resumable, GoesOnBehindAGap) {
+  for (int i = 2; i < 4; ++i) {
+    WriteVelodyne(folder_.path() / (std::to_string(i) + ".bin"),
+                  testing_support::FirstScans(6)[static_cast<std::size_t>(i + 2)]);
+  }
+  folder_.Write("times.txt", "0\n0.1\n0.4\n0.5\n");
+  std::vector<FrameRecord> whole, resumed;
+  Drive("whole.txt", &whole);
+  const std::string journal = testing_support::ReadFile(folder_.path() / "whole.txt");
+  for (const int lines : {3, 4}) {
+    std::size_t end = 0;
+    for (int line = 0; line < lines; ++line) {
+      end = journal.find('\n', end) + 1;
+    }
+    folder_.Write("part.txt", journal.substr(0, end));
+    EXPECT_EQ(Drive("part.txt", &resumed), std::make_pair(lines - 1, 5 - lines));
+    for (std::size_t i = 0; i < whole.size(); ++i) {
+      EXPECT_EQ(resumed[i].result.T_world_lidar.Matrix(), whole[i].result.T_world_lidar.Matrix());
+      EXPECT_EQ(resumed[i].result.iterations, whole[i].result.iterations);
+    }
+    std::filesystem::remove(folder_.path() / "part.txt");
+  }
+}
+
 TEST_F(Resumable, NamesTheScanThatIsNotTheJournals) {
   std::vector<FrameRecord> records;
   Drive("journal.txt", &records);
