@@ -19,21 +19,50 @@ namespace {
 constexpr double kDegrees = 180 / M_PI;
 
 void WriteFrames(const ScanSequence& sequence, const std::vector<FrameRecord>& records, Run* run) {
-  Table frames({"frame", "scan", "time_s", "registered", "termination", "converged",
-                "predicted_directions", "uncertain_directions", "iterations", "n", "rmse", "gate_m",
-                "points", "map_points", "motion_m", "motion_deg", "x_m", "y_m", "z_m"});
+  Table frames({"frame",
+                "scan",
+                "time_s",
+                "registered",
+                "termination",
+                "converged",
+                "recovered",
+                "predicted_directions",
+                "uncertain_directions",
+                "iterations",
+                "n",
+                "rmse",
+                "gate_m",
+                "points",
+                "map_points",
+                "motion_m",
+                "motion_deg",
+                "x_m",
+                "y_m",
+                "z_m"});
   // Apart, since no two runs take the same time.
   Table timings({"frame", "read_s", "odometry_s"});
   for (std::size_t i = 0; i < records.size(); ++i) {
     const FrameResult& r = records[i].result;
     const Vec3& t = r.T_world_lidar.t();
-    frames.AddRow({std::to_string(i), sequence.scans[i].name, Number(sequence.times_s[i]),
-                   r.registered ? "1" : "0", i == 0 ? "first" : NameOf(r.termination),
-                   r.converged ? "1" : "0", std::to_string(r.predicted_directions),
-                   std::to_string(r.uncertain_directions), std::to_string(r.iterations),
-                   std::to_string(r.n), Number(r.rmse), Number(r.gate_m), std::to_string(r.points),
-                   std::to_string(r.map_points), Number(r.motion.t().norm()),
-                   Number(r.motion.LogRotation().norm() * kDegrees), Number(t.x()), Number(t.y()),
+    frames.AddRow({std::to_string(i),
+                   sequence.scans[i].name,
+                   Number(sequence.times_s[i]),
+                   r.registered ? "1" : "0",
+                   i == 0 ? "first" : NameOf(r.termination),
+                   r.converged ? "1" : "0",
+                   r.recovered ? "1" : "0",
+                   std::to_string(r.predicted_directions),
+                   std::to_string(r.uncertain_directions),
+                   std::to_string(r.iterations),
+                   std::to_string(r.n),
+                   Number(r.rmse),
+                   Number(r.gate_m),
+                   std::to_string(r.points),
+                   std::to_string(r.map_points),
+                   Number(r.motion.t().norm()),
+                   Number(r.motion.LogRotation().norm() * kDegrees),
+                   Number(t.x()),
+                   Number(t.y()),
                    Number(t.z())});
     timings.AddRow({std::to_string(i), Number(records[i].read_s), Number(records[i].odometry_s)});
   }
@@ -57,6 +86,9 @@ void ReportDoubts(const std::vector<FrameRecord>& records, Manifest* manifest) {
   Count(
       records, [](const FrameResult& r) { return !r.registered; }, "not_registered",
       "could not be registered and keep the predicted pose", manifest);
+  Count(
+      records, [](const FrameResult& r) { return r.recovered; }, "recovered",
+      "were lost from the predicted pose and found from another start", manifest);
   Count(
       records, [](const FrameResult& r) { return r.predicted_directions > 0; }, "not_observed",
       "have the predicted motion in directions that they do not see", manifest);

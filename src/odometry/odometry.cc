@@ -10,6 +10,8 @@
 #include "icpscape/cloud/scan_sequence.h"
 #include "icpscape/common/error.h"
 #include "icpscape/common/text.h"
+#include "icpscape/odometry/recovery.h"
+#include "icpscape/odometry/thinned.h"
 #include "icpscape/preparation/deskew.h"
 
 namespace icpscape {
@@ -26,21 +28,14 @@ bool AnyPoints(const std::vector<std::string>& metrics) {
 // passes must not cost more than a tenth of the registration.
 constexpr std::size_t kJudgedPoints = 1000;
 
-std::optional<SearchableCloud> Thinned(const std::optional<SearchableCloud>& cloud,
-                                       std::size_t most) {
-  if (!cloud || cloud->cloud().size() <= most) {
-    return cloud;
-  }
-  const std::size_t every = (cloud->cloud().size() + most - 1) / most;
-  std::vector<char> keep(cloud->cloud().size());
-  for (std::size_t i = 0; i < keep.size(); i += every) {
-    keep[i] = 1;
-  }
-  return SearchableCloud(cloud->cloud().Select(keep), cloud->threads());
-}
-
 MetricClouds Thinned(const MetricClouds& clouds, std::size_t most) {
-  return {Thinned(clouds.points, most), Thinned(clouds.edges, most), Thinned(clouds.planar, most)};
+  MetricClouds thinned = clouds;
+  for (auto* cloud : {&thinned.points, &thinned.edges, &thinned.planar}) {
+    if (*cloud) {
+      *cloud = Thinned(**cloud, most);
+    }
+  }
+  return thinned;
 }
 
 }  // namespace
@@ -70,6 +65,7 @@ struct Odometry::Registration {
   SE3d T;
   MinimizerSummary summary;
   Verdict verdict;
+  bool recovered = false;
 };
 
 Odometry::Odometry(OdometryOptions options)
@@ -97,14 +93,27 @@ ObjectiveSetOptions Odometry::ObjectiveOptions() const {
 }
 
 Odometry::Registration Odometry::Register(const MetricClouds& source, const MetricClouds& target,
-                                          const SE3d& T_predicted) const {
+                                          const SE3d& T_predicted, const SE3d& T_still) const {
   VerdictOptions judge = options_.verdict;
   judge.minimizer = options_.minimizer;
   judge.minimizer.threads = options_.threads;
   const ObjectiveSet set(source, target, options_.metrics, ObjectiveOptions());
+  const JointObjective objective(set.objectives(), options_.weights);
   Registration result;
-  result.summary =
-      Minimize(JointObjective(set.objectives(), options_.weights), T_predicted, judge.minimizer);
+  result.summary = Minimize(objective, T_predicted, judge.minimizer);
+  if (IsLost(result.summary) && !AnyFeatures(options_.metrics)) {
+    const std::optional<SE3d> start =
+        FindStart(*source.points, *target.points, options_.metrics, options_.weights,
+                  options_.objective, judge.minimizer, T_predicted, T_still);
+    MinimizerSummary again;
+    if (start) {
+      again = Minimize(objective, *start, judge.minimizer);
+    }
+    if (again.Usable() && again.termination != Termination::kMaxIterations && !IsLost(again)) {
+      result.summary = std::move(again);
+      result.recovered = true;
+    }
+  }
   const ObjectiveSet few(Thinned(source, kJudgedPoints), target, options_.metrics,
                          ObjectiveOptions());
   result.verdict =
@@ -116,10 +125,10 @@ Odometry::Registration Odometry::Register(const MetricClouds& source, const Metr
   return result;
 }
 
-Odometry::Registration Odometry::Register(const PreparedPair& scans,
-                                          const SE3d& T_predicted) const {
+Odometry::Registration Odometry::Register(const PreparedPair& scans, const SE3d& T_predicted,
+                                          const SE3d& T_still) const {
   const auto registered = [&](const PreparedPair& pair) {
-    return Register(pair.source.clouds(), pair.target.AsTarget(), T_predicted);
+    return Register(pair.source.clouds(), pair.target.AsTarget(), T_predicted, T_still);
   };
   if (!options_.filters.Any()) {
     return registered(scans);
@@ -136,9 +145,16 @@ Odometry::Registration Odometry::RegisterToMap(const PreparedScan& source, const
     result->map_points += *cloud ? (*cloud)->cloud().size() : 0;
   }
   if (options_.filters.Any()) {  // Only with closest points; see OdometryOptions::Check.
-    return Register({source, PreparedScan(*map.points)}, T_predicted);
+    return Register({source, PreparedScan(*map.points)}, T_predicted, SE3d());
   }
-  return Register(source.clouds(), map, T_predicted);
+  return Register(source.clouds(), map, T_predicted, SE3d());
+}
+
+bool Odometry::IsLost(const MinimizerSummary& summary) const {
+  // An objective that is slow to converge ends at the limit as well, but with pairs as usual.
+  constexpr double kUnusual = 2;
+  return !summary.Usable() || (summary.termination == Termination::kMaxIterations && usual_rmse_ &&
+                               summary.iterates.back().rmse > kUnusual * *usual_rmse_);
 }
 
 bool Odometry::MapsNow() const {
@@ -215,6 +231,7 @@ FrameResult Odometry::RegisterNext(const PreparedScan& current,
     result.registered = result.registered || registration.verdict.HasPose();
     result.termination = registration.summary.termination;
     result.converged = registration.verdict.converged;
+    result.recovered = result.recovered || registration.recovered;
     result.predicted_directions = static_cast<int>(registration.verdict.Unobservable().cols());
     result.uncertain_directions =
         static_cast<int>(registration.verdict.undetermined.size()) - result.predicted_directions;
@@ -228,7 +245,7 @@ FrameResult Odometry::RegisterNext(const PreparedScan& current,
   try {
     if (options_.mode != OdometryMode::kScanToMap) {
       const Registration registration =
-          Register({current, *last_}, T_last_previous_ * predicted_motion);
+          Register({current, *last_}, T_last_previous_ * predicted_motion, T_last_previous_);
       take_over(registration);
       motion = result.motion = T_last_previous_.Inverse() * registration.T;
     }
@@ -304,6 +321,9 @@ void Odometry::Finish(PreparedScan scan, const FrameResult& result, std::optiona
     T_last_previous_ = SE3d();
   } else {
     T_last_previous_ = T_last_previous_ * result.motion;
+  }
+  if (result.registered && result.converged) {
+    usual_rmse_ = result.rmse;
   }
   T_world_last_ = result.T_world_lidar;
   motion_.Add(result.motion, time_s);

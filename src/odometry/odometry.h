@@ -78,6 +78,8 @@ struct FrameResult {
   /// Whether a stage had an answer. False for the first scan, and where the predicted motion was
   /// taken.
   bool registered = false;
+  /// Whether it was lost from the predicted pose, and found from another start.
+  bool recovered = false;
   bool deskewed = false;  ///< Whether its points had times by which they were moved.
   Termination termination = Termination::kFailure;
   bool converged = false;  ///< Of the last stage; see Verdict.
@@ -98,7 +100,11 @@ struct FrameResult {
 /// registered (no pair is left, fewer rows than directions, the loss is flat) gets the predicted
 /// motion and is left out of the map, and the next scan is not registered to it. Directions that a
 /// registration does not see (JudgePose over at most kJudgedPoints points) get the predicted
-/// motion. A scan that ended at the limit of steps is left out of the map as well. Bit-identical
+/// motion. A scan that ended at the limit of steps is left out of the map as well.
+///
+/// A scan is lost where it has no pose, or ended at the limit with an RMSE beyond twice that of the
+/// last scan that converged. It is then registered again from another start (FindStart; not with
+/// metrics of edge and planar points), and that pose is taken where it converges. Bit-identical
 /// for any number of threads.
 ///
 /// Scans whose points have times are de-skewed by the velocity of the motion before. The first two
@@ -133,8 +139,10 @@ class Odometry {
   void DeskewFirst(const SE3d& motion, double span_s);
   struct Registration;
   Registration Register(const MetricClouds& source, const MetricClouds& target,
-                        const SE3d& T_predicted) const;
-  Registration Register(const PreparedPair& scans, const SE3d& T_predicted) const;
+                        const SE3d& T_predicted, const SE3d& T_still) const;
+  Registration Register(const PreparedPair& scans, const SE3d& T_predicted,
+                        const SE3d& T_still) const;
+  bool IsLost(const MinimizerSummary& summary) const;
   Registration RegisterToMap(const PreparedScan& source, const SE3d& T_predicted,
                              FrameResult* result) const;
   ObjectiveSetOptions ObjectiveOptions() const;
@@ -150,7 +158,8 @@ class Odometry {
   SE3d T_last_previous_;              // From it to the last of all.
   SE3d T_world_last_;                 // Of the last of all, as the next.
   MotionModel motion_;
-  std::optional<PointCloud> first_;  // Until the second, if its points have times.
+  std::optional<PointCloud> first_;   // Until the second, if its points have times.
+  std::optional<double> usual_rmse_;  // Of the last scan that converged.
   AdaptiveGate gate_;
   LocalMap map_;
 };

@@ -18,6 +18,7 @@ template <class Record, class Visit>
 void ForEachNumber(Record& record, const Visit& visit) {
   auto& result = record.result;
   visit(result.registered);
+  visit(result.recovered);
   visit(result.deskewed);
   visit(result.termination);
   visit(result.converged);

@@ -34,6 +34,7 @@ void ExpectSame(const FrameRecord& a, const FrameRecord& b) {
   EXPECT_TRUE(SameBits(a.read_s, b.read_s));
   EXPECT_TRUE(SameBits(a.odometry_s, b.odometry_s));
   EXPECT_EQ(a.result.registered, b.result.registered);
+  EXPECT_EQ(a.result.recovered, b.result.recovered);
   EXPECT_EQ(a.result.deskewed, b.result.deskewed);
   EXPECT_EQ(a.result.termination, b.result.termination);
   EXPECT_EQ(a.result.converged, b.result.converged);
@@ -56,6 +57,7 @@ FrameRecord Example() {
   record.read_s = 0.125;
   record.odometry_s = 0.1;
   record.result.registered = true;
+  record.result.recovered = true;
   record.result.deskewed = true;
   record.result.termination = Termination::kNoDescent;
   record.result.converged = true;
