@@ -48,7 +48,7 @@ void CheckFlags() {
 // Prints how far point-to-plane moves from the ground truth, and returns the pose for u = 1.
 SE3d ReferencePose(const ScanPair& pair, const PreparedPair& scans, Manifest* manifest) {
   const bool is_refined = FLAGS_reference == "refined";
-  ReportPose("motion", "motion", *pair.T_ground_truth, manifest);
+  ReportPose("motion", "motion", pair.origins.Motion(*pair.T_ground_truth), manifest);
   const auto check = ReportGroundTruthCheck(pair, scans, is_refined, ThreadsFromFlags(), manifest);
   return is_refined ? check->T_refined : *pair.T_ground_truth;
 }
@@ -96,7 +96,7 @@ void Landscape() {
     const PathSection section = {path, options.u_min, options.u_max};
     const auto iterates = MinimizeEach(set.objectives(), T_initial, MinimizerFromFlags());
     ReportEnds(iterates, section, manifest);
-    WriteIterates(iterates, section, &run);
+    WriteIterates(iterates, section, pair.origins, &run);
     manifest->AddTiming("iterates");
   }
   Draw(pair.title, &run);

@@ -79,11 +79,13 @@ void Register() {
     throw ComputationError(objective.Name() + ": " + verdict.no_pose);
   }
   const SE3d& T = summary.T_target_source();
-  ReportRegistration(objective.Name(), summary, &run);
+  ReportRegistration(objective.Name(), summary, pair.origins, &run);
   PrintVerdict(verdict);
   WriteVerdicts(verdicts, &run);
   manifest->SetResult("searches_built", static_cast<double>(SearchesBuilt()));
-  WritePly(run.File("aligned.ply"), scans.source.cloud().Transformed(T));
+  PointCloud aligned = scans.source.cloud().Transformed(T);
+  aligned.origin = pair.origins.target;
+  WritePly(run.File("aligned.ply"), aligned);
   if (pair.T_ground_truth) {
     ReportPose("off the ground truth", "off", pair.T_ground_truth->Inverse() * T, manifest);
   }

@@ -13,6 +13,7 @@
 #include "apps/flags/sequence.h"
 #include "apps/run/flag.h"
 #include "icpscape/common/error.h"
+#include "icpscape/common/text.h"
 #include "icpscape/io/sequences.h"
 #include "icpscape/io/transform.h"
 
@@ -59,6 +60,17 @@ PointCloud Read(const std::string& role, const Scan& scan, Manifest* manifest) {
   manifest->SetResult(role + "_dropped_non_finite", static_cast<double>(dropped.non_finite));
   manifest->SetResult(role + "_dropped_zero", static_cast<double>(dropped.zero));
   return cloud;
+}
+
+// A cloud that lies far out is registered about its middle; see docs/conventions.md.
+void PrintOrigin(const std::string& role, const Vec3& origin, Manifest* manifest) {
+  if (origin.isZero(0)) {
+    return;
+  }
+  const std::string text =
+      Fixed(origin.x(), 0) + " " + Fixed(origin.y(), 0) + " " + Fixed(origin.z(), 0);
+  std::cout << role << ": lies far out, and is registered less its origin " << text << " (m)\n";
+  manifest->SetResult(role + "_origin", text);
 }
 
 void CheckFrames() {
@@ -140,7 +152,7 @@ ScanPair ReadPair(Manifest* manifest) {
     pair = files.Pair(1, 0, read);
     pair.title = files.title;
     if (!GroundTruthFile().empty()) {
-      pair.T_ground_truth = ReadTransform(GroundTruthFile());
+      pair.T_ground_truth = pair.origins.FromUser(ReadTransform(GroundTruthFile()));
       manifest->AddInput(GroundTruthFile());
     }
   } else {
@@ -149,13 +161,15 @@ ScanPair ReadPair(Manifest* manifest) {
   if (ReverseFromFlags()) {
     pair.Reverse();
   }
+  PrintOrigin("source", pair.origins.source, manifest);
+  PrintOrigin("target", pair.origins.target, manifest);
   manifest->AddTiming("read");
   return pair;
 }
 
 SE3d InitialPose(const ScanPair& pair, Manifest* manifest) {
   if (FLAGS_initial == "identity") {
-    return SE3d();
+    return pair.origins.FromUser(SE3d());
   }
   if (FLAGS_initial == "previous_motion") {
     if (!pair.T_predicted) {
@@ -165,7 +179,7 @@ SE3d InitialPose(const ScanPair& pair, Manifest* manifest) {
     return *pair.T_predicted;
   }
   manifest->AddInput(FLAGS_initial);
-  return ReadTransform(FLAGS_initial);
+  return pair.origins.FromUser(ReadTransform(FLAGS_initial));
 }
 
 PreparedPair PrepareFromFlags(const std::vector<std::string>& metrics, ScanPair* pair,

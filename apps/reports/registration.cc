@@ -26,17 +26,19 @@ void ReportPose(const std::string& what, const std::string& name, const SE3d& T,
   manifest->SetResult(name + "_deg", degrees);
 }
 
-void ReportRegistration(const std::string& name, const MinimizerSummary& summary, Run* run) {
+void ReportRegistration(const std::string& name, const MinimizerSummary& summary,
+                        const PairOrigins& origins, Run* run) {
   PrintIterates(summary);
-  WriteIterates({{name, summary}}, std::nullopt, run);
+  WriteIterates({{name, summary}}, std::nullopt, origins, run);
   std::printf("%s: %s\nfinal cost: %s\n", NameOf(summary.termination), summary.message.c_str(),
               Number(summary.final_cost()).c_str());
   Manifest* const manifest = run->manifest();
   manifest->SetResult("termination", NameOf(summary.termination));
   manifest->SetResult("final_cost", summary.final_cost());
   manifest->SetResult("matching_passes", summary.matching_passes);
-  ReportPose("motion", "motion", summary.T_target_source(), manifest);
-  WriteTextFile(run->File("T_target_source.txt"), FormatTransform(summary.T_target_source()));
+  const SE3d& T = summary.T_target_source();
+  ReportPose("motion", "motion", origins.Motion(T), manifest);
+  WriteTextFile(run->File("T_target_source.txt"), FormatTransform(origins.ToUser(T)));
 }
 
 void ReportStarts(const std::vector<StartResult>& results, const RandomStartOptions& options,

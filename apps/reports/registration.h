@@ -5,6 +5,7 @@
 #include <string>
 
 #include "apps/run/run.h"
+#include "icpscape/cloud/origin.h"
 #include "icpscape/minimizer/random_starts.h"
 
 namespace icpscape {
@@ -15,8 +16,9 @@ void ReportPose(const std::string& what, const std::string& name, const SE3d& T,
                 Manifest* manifest);
 
 /// Prints and records how a minimisation of the objective of that name went and what motion it
-/// found; writes iterates.csv and T_target_source.txt.
-void ReportRegistration(const std::string& name, const MinimizerSummary& summary, Run* run);
+/// found; writes iterates.csv and T_target_source.txt, with poses in the coordinates of the user.
+void ReportRegistration(const std::string& name, const MinimizerSummary& summary,
+                        const PairOrigins& origins, Run* run);
 
 /// Prints and records how many random starts succeed, and writes starts.csv.
 void ReportStarts(const std::vector<StartResult>& results, const RandomStartOptions& options,

@@ -88,16 +88,20 @@ void PairOptions::Check() const {
   Require(threads >= 1, "threads", threads, "at least 1");
 }
 
-ObjectiveSet ObjectivesOf(PointCloud source, PointCloud target, const PairOptions& options) {
+PairObjectives ObjectivesOf(PointCloud source, PointCloud target, const PairOptions& options) {
   options.Check();
   CheckCloud(source, "source");
   CheckCloud(target, "target");
   DropInvalidPoints(&source);
   DropInvalidPoints(&target);
+  TakeOutOrigin(&source);
+  TakeOutOrigin(&target);
+  ShareOrigin(&source, &target);
+  const PairOrigins origins = {source.origin, target.origin};
   const PreparedPair scans = PreparePair(std::move(source), std::move(target),
                                          NeedsOf(options.metrics, options.objective.matching),
                                          options.preparation, options.threads);
-  return ObjectiveSet(scans, options.metrics, options.objective);
+  return {ObjectiveSet(scans, options.metrics, options.objective), origins};
 }
 
 }  // namespace icpscape

@@ -14,11 +14,11 @@ RegisterOptions::RegisterOptions() {
 }
 
 RegisterResult Register(PointCloud source, PointCloud target, const RegisterOptions& options) {
-  const ObjectiveSet set = ObjectivesOf(std::move(source), std::move(target), options);
+  const auto [set, origins] = ObjectivesOf(std::move(source), std::move(target), options);
   const JointObjective objective(set.objectives(), options.weights);
   MinimizerOptions minimizer = options.minimizer;
   minimizer.threads = options.threads;
-  MinimizerSummary summary = Minimize(objective, options.T_initial, minimizer);
+  MinimizerSummary summary = Minimize(objective, origins.FromUser(options.T_initial), minimizer);
   VerdictOptions judge = options.verdict;
   judge.minimizer = minimizer;
   RegisterResult result;
@@ -27,6 +27,9 @@ RegisterResult Register(PointCloud source, PointCloud target, const RegisterOpti
   result.termination = summary.termination;
   result.message = std::move(summary.message);
   result.iterates = std::move(summary.iterates);
+  for (Iterate& iterate : result.iterates) {
+    iterate.T_target_source = origins.ToUser(iterate.T_target_source);
+  }
   if (result.Usable()) {
     const Iterate& last = result.iterates.back();
     result.T_target_source = last.T_target_source;

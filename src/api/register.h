@@ -50,9 +50,12 @@ struct RegisterResult {
 /// over the pairs (p_i, q_i) that belong to T, with r the residual of the metric and rho the loss.
 /// Pairs are found anew after each step of Ceres' trust region.
 ///
-/// Clouds are in metres, each in the frame of its sensor, with the sensor at the origin. A metric
-/// of planes or normals estimates normals from 20 neighbours; those of edges and planar points need
-/// scan lines: PointCloud::ring, or scans whose rings can be recovered.
+/// Clouds are in metres, each in the frame of its sensor, with the sensor at the origin, or
+/// anywhere else: what lies far out is registered less its origin (see PointCloud::origin), and
+/// poses are given and returned in the coordinates of the user. The observer, and directions in the
+/// verdict, see the clouds less their origins. A metric of planes or normals estimates normals from
+/// 20 neighbours; those of edges and planar points need scan lines: PointCloud::ring, or scans
+/// whose rings can be recovered.
 ///
 /// icpscape-register with the same options finds the same bits.
 ///

@@ -39,6 +39,8 @@ PointCloud VoxelFilter(const PointCloud& cloud, double voxel_size_m) {
     sum.points += 1;
   }
   PointCloud out;
+  out.sensor = cloud.sensor;
+  out.origin = cloud.origin;
   const auto averages = [&](double Sums::*sum) {
     std::vector<float> values(sums.size());
     for (std::size_t v = 0; v < sums.size(); ++v) {

@@ -9,6 +9,7 @@
 #include <limits>
 #include <utility>
 
+#include "icpscape/cloud/origin.h"
 #include "icpscape/cloud/usable_point.h"
 #include "icpscape/common/error.h"
 #include "icpscape/common/text.h"
@@ -257,6 +258,7 @@ PointCloud CloudOf(const PointTable& table, DroppedPoints* dropped) {
                      "; expected at least one that is finite and not (0, 0, 0).");
   }
   PointCloud cloud;
+  cloud.origin = OriginOf(p[0], p[1], p[2]);
   cloud.x = Floats(p[0], cloud.origin.x());
   cloud.y = Floats(p[1], cloud.origin.y());
   cloud.z = Floats(p[2], cloud.origin.z());

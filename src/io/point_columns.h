@@ -60,7 +60,9 @@ struct PointTable {
 bool IsUsed(std::string_view name);
 
 /// The cloud. Points with a coordinate that is NaN, infinite or beyond 1e9 m are dropped and
-/// counted, and those at (0, 0, 0). The sensor is where the file says, else at 0.
+/// counted, and those at (0, 0, 0). Coordinates are doubles until the origin is taken out (see
+/// OriginOf). The sensor is where the file says; else at 0, or, where an origin was taken out, in
+/// the cloud's middle.
 ///
 /// Times become seconds from the earliest point. Whole numbers are nanoseconds, or microseconds
 /// where all lie within 2e6; others are seconds, or, where they span more than 100, what whole

@@ -7,8 +7,8 @@
 
 #include "icpscape/common/error.h"
 #include "icpscape/io/point_files.h"
-#include "tests/io/point_file_writer.h"
 #include "tests/support/message_of.h"
+#include "tests/support/point_file_writer.h"
 #include "tests/support/temporary_folder.h"
 
 namespace icpscape {

@@ -11,8 +11,8 @@
 #include <random>
 
 #include "icpscape/common/error.h"
-#include "tests/io/point_file_writer.h"
 #include "tests/support/message_of.h"
+#include "tests/support/point_file_writer.h"
 #include "tests/support/scenes.h"
 #include "tests/support/temporary_folder.h"
 

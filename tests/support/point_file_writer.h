@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#ifndef ICPSCAPE_TESTS_IO_POINT_FILE_WRITER_H_
-#define ICPSCAPE_TESTS_IO_POINT_FILE_WRITER_H_
+#ifndef ICPSCAPE_TESTS_SUPPORT_POINT_FILE_WRITER_H_
+#define ICPSCAPE_TESTS_SUPPORT_POINT_FILE_WRITER_H_
 
 #include <algorithm>
 #include <array>
@@ -171,4 +171,4 @@ inline std::string PlyFile(const std::vector<TestField>& fields, int points,
 
 }  // namespace icpscape::testing_support
 
-#endif  // ICPSCAPE_TESTS_IO_POINT_FILE_WRITER_H_
+#endif  // ICPSCAPE_TESTS_SUPPORT_POINT_FILE_WRITER_H_
