@@ -3,6 +3,7 @@
 
 #include <gflags/gflags.h>
 
+#include <algorithm>
 #include <filesystem>
 #include <iostream>
 #include <utility>
@@ -12,6 +13,7 @@
 #include "apps/flags/preparation.h"
 #include "apps/flags/sequence.h"
 #include "apps/run/flag.h"
+#include "icpscape/cloud/units.h"
 #include "icpscape/common/error.h"
 #include "icpscape/common/text.h"
 #include "icpscape/io/sequences.h"
@@ -71,6 +73,35 @@ void PrintOrigin(const std::string& role, const Vec3& origin, Manifest* manifest
       Fixed(origin.x(), 0) + " " + Fixed(origin.y(), 0) + " " + Fixed(origin.z(), 0);
   std::cout << role << ": lies far out, and is registered less its origin " << text << " (m)\n";
   manifest->SetResult(role + "_origin", text);
+}
+
+// Warns of a cloud whose units look like millimetres, and refuses a pair of two units: no motion
+// takes one to the other. Spacings cost a search, so they are asked for where ranges are odd.
+void CheckUnits(const ScanPair& pair) {
+  const double source_m = RangeOf(pair.source).range_m, target_m = RangeOf(pair.target).range_m;
+  constexpr double kOddRangeM = 1000, kOddFactor = 100;
+  if (std::max(source_m, target_m) < kOddRangeM &&
+      std::max(source_m, target_m) < kOddFactor * std::min(source_m, target_m)) {
+    return;
+  }
+  const CloudScale source = ScaleOf(pair.source), target = ScaleOf(pair.target);
+  if (source.IsThousandfold(target) || target.IsThousandfold(source)) {
+    const bool larger = source.IsThousandfold(target);
+    throw InputError(
+        pair.title + ": the source is " +
+        Fixed(larger ? source.range_m / target.range_m : target.range_m / source.range_m, 0) +
+        (larger ? " times as large as" : " times smaller than") +
+        " the target, and its points lie as far apart; expected both in metres.");
+  }
+  const auto warn = [](const char* role, const CloudScale& scale) {
+    if (scale.LooksLikeMillimetres()) {
+      std::cerr << "warning: the " << role << " looks like millimetres (half of it beyond "
+                << Fixed(scale.range_m, 0) << " m, points " << Fixed(scale.spacing_m, 1)
+                << " m apart); expected metres: 0.001 times its coordinates\n";
+    }
+  };
+  warn("source", source);
+  warn("target", target);
 }
 
 void CheckFrames() {
@@ -161,6 +192,7 @@ ScanPair ReadPair(Manifest* manifest) {
   if (ReverseFromFlags()) {
     pair.Reverse();
   }
+  CheckUnits(pair);
   PrintOrigin("source", pair.origins.source, manifest);
   PrintOrigin("target", pair.origins.target, manifest);
   manifest->AddTiming("read");

@@ -127,5 +127,31 @@ TEST_F(FarClouds, CurvesAreTheSame) {
   }
 }
 
+TEST_F(FarClouds, UnitsAreSaid) {
+  for (const char* name : {"source", "target"}) {
+    PointCloud cloud = Read(Path(std::string(name) + ".ply"));
+    for (std::vector<float>* values : {&cloud.x, &cloud.y, &cloud.z}) {
+      for (float& value : *values) {
+        value *= 1000;
+      }
+    }
+    WritePly(Path(std::string(name) + "_mm.ply"), cloud);
+  }
+  auto arguments = Clouds("source_mm.ply", "target.ply");
+  arguments.push_back("--out=" + Path("out"));
+  testing_support::ExpectRefusal(RunProgram("register", arguments), 2,
+                                 "times as large as the target");
+  arguments[0] = "--source=" + Path("source.ply");
+  arguments[1] = "--target=" + Path("target_mm.ply");
+  testing_support::ExpectRefusal(RunProgram("register", arguments), 2,
+                                 "times smaller than the target");
+  arguments[0] = "--source=" + Path("source_mm.ply");
+  arguments.push_back("--accept=limit,cycle,undetermined");
+  const Outcome outcome = RunProgram("register", arguments);
+  EXPECT_EQ(outcome.code, 0) << outcome.err;
+  EXPECT_THAT(outcome.err, HasSubstr("warning: the source looks like millimetres"));
+  EXPECT_THAT(outcome.err, HasSubstr("warning: the target looks like millimetres"));
+}
+
 }  // namespace
 }  // namespace icpscape
