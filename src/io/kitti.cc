@@ -7,6 +7,7 @@
 #include <sstream>
 
 #include "icpscape/common/error.h"
+#include "icpscape/io/bin_layout.h"
 #include "icpscape/io/point_columns.h"
 #include "icpscape/io/transform.h"
 #include "icpscape/io/whole_file.h"
@@ -33,6 +34,7 @@ PointCloud ReadVelodyne(const std::filesystem::path& path, DroppedPoints* droppe
     throw InputError(path.string() + ": " + std::to_string(table.bytes.size()) +
                      " bytes; expected a multiple of 16 (x y z intensity as float32).");
   }
+  CheckFourFloats(table.place, table.bytes);
   table.size = table.bytes.size() / kRecord;
   for (const char* name : {"x", "y", "z", "intensity"}) {
     table.columns.push_back(
