@@ -26,7 +26,8 @@ DEFINE_int32(frame, -1,
 static const icpscape::FlagMark frame_mark(&FLAGS_frame, icpscape::kShown);
 DEFINE_int32(target_frame, -1, "Frame number of the target; -1 is the frame before --frame.");
 static const icpscape::FlagMark target_frame_mark(&FLAGS_target_frame, icpscape::kShown);
-DEFINE_string(source, "", "Source cloud (.bin, .pcd or .ply), instead of a sequence.");
+DEFINE_string(source, "",
+              "Source cloud, instead of a sequence; docs/inputs.md has the kinds of files.");
 static const icpscape::FlagMark source_mark(&FLAGS_source, icpscape::kShown);
 DEFINE_string(target, "", "Target cloud, with --source.");
 static const icpscape::FlagMark target_mark(&FLAGS_target, icpscape::kShown);

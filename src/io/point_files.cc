@@ -2,19 +2,40 @@
 #include "icpscape/io/point_files.h"
 
 #include <algorithm>
+#include <array>
 #include <fstream>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "icpscape/common/error.h"
+#include "icpscape/common/text.h"
 #include "icpscape/io/kitti.h"
+#include "icpscape/io/npy.h"
 #include "icpscape/io/output.h"
 #include "icpscape/io/pcd.h"
 #include "icpscape/io/ply.h"
+#include "icpscape/io/text_points.h"
 #include "icpscape/io/whole_file.h"
 
 namespace icpscape {
 namespace {
+
+constexpr std::array<const char*, 7> kKinds = {".bin", ".pcd", ".ply", ".npy",
+                                               ".csv", ".txt", ".xyz"};
+
+PointTable ReadTable(const std::string& kind, const std::string& place, std::string bytes) {
+  if (kind == ".ply") {
+    return ReadPly(place, bytes);
+  }
+  if (kind == ".pcd") {
+    return ReadPcd(place, std::move(bytes));
+  }
+  if (kind == ".npy") {
+    return ReadNpy(place, std::move(bytes));
+  }
+  return ReadTextPoints(place, bytes, kind == ".xyz");
+}
 
 std::string HeaderOf(const PointCloud& cloud, const std::string& type) {
   std::string header = "ply\nformat binary_little_endian 1.0\ncomment icpscape\nelement vertex " +
@@ -49,22 +70,20 @@ std::string PointFileKind(const std::filesystem::path& path) {
   std::transform(extension.begin(), extension.end(), extension.begin(), [](char c) {
     return 'A' <= c && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c;
   });
-  return extension == ".bin" || extension == ".pcd" || extension == ".ply" ? extension : "";
+  const auto found = std::find(kKinds.begin(), kKinds.end(), extension);
+  return found == kKinds.end() ? "" : extension;
 }
 
 PointCloud ReadPointFile(const std::filesystem::path& path, DroppedPoints* dropped) {
   const std::string kind = PointFileKind(path);
   if (kind.empty()) {
     throw InputError(path.string() + ": extension \"" + path.extension().string() +
-                     "\"; expected .bin, .pcd or .ply.");
+                     "\"; expected one of " + Join({kKinds.begin(), kKinds.end()}) + ".");
   }
   if (kind == ".bin") {
     return ReadVelodyne(path, dropped);
   }
-  std::string bytes = ReadWholeFile(path, "a point cloud");
-  return CloudOf(
-      kind == ".ply" ? ReadPly(path.string(), bytes) : ReadPcd(path.string(), std::move(bytes)),
-      dropped);
+  return CloudOf(ReadTable(kind, path.string(), ReadWholeFile(path, "a point cloud")), dropped);
 }
 
 void WritePly(const std::filesystem::path& path, const PointCloud& cloud) {

@@ -9,12 +9,12 @@
 
 namespace icpscape {
 
-/// The extension of a file that ReadPointFile takes, in lower case: .bin, .pcd or .ply; "" for any
-/// other file.
+/// The extension of a file that ReadPointFile takes, in lower case; "" for any other file.
 std::string PointFileKind(const std::filesystem::path& path);
 
-/// Reads a cloud by the file's extension, in upper or lower case: .bin (KITTI's), .pcd or .ply. See
-/// CloudOf for the fields that are used and the points that are dropped. Throws InputError.
+/// Reads a cloud by the file's extension, in upper or lower case: .bin (KITTI's), .pcd, .ply,
+/// .npy, and .csv, .txt and .xyz (see ReadTextPoints). See CloudOf for the fields that are used and
+/// the points that are dropped. Throws InputError.
 PointCloud ReadPointFile(const std::filesystem::path& path, DroppedPoints* dropped);
 
 /// Writes x y z (and intensity, if the cloud has it) as binary .ply, in the coordinates of the

@@ -24,7 +24,25 @@ void SplitAtBlanks(std::string_view line, std::vector<std::string_view>* words) 
   }
 }
 
+std::string_view WithoutBlanks(std::string_view word) {
+  word.remove_prefix(std::min(word.find_first_not_of(kBlanks), word.size()));
+  return word.substr(0, word.find_last_not_of(kBlanks) + 1);
+}
+
 }  // namespace
+
+void SplitLine(std::string_view line, char separator, std::vector<std::string_view>* words) {
+  SplitAtBlanks(line, words);
+  if (separator == ' ' || words->empty()) {
+    return;
+  }
+  words->clear();
+  for (std::size_t begin = 0; begin <= line.size();) {
+    const std::size_t end = std::min(line.find(separator, begin), line.size());
+    words->push_back(WithoutBlanks(line.substr(begin, end - begin)));
+    begin = end + 1;
+  }
+}
 
 TextLines::TextLines(std::string file, std::string_view text)
     : file_(std::move(file)), text_(text) {
@@ -50,7 +68,7 @@ bool TextLines::Next(std::string_view* line) {
 bool TextLines::NextWords(std::vector<std::string_view>* words) {
   std::string_view line;
   while (Next(&line)) {
-    SplitAtBlanks(line, words);
+    SplitLine(line, separator_, words);
     if (!words->empty()) {
       return true;
     }

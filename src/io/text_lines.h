@@ -18,8 +18,10 @@ class TextLines {
 
   /// The next line, without its end; false at the end of the text.
   bool Next(std::string_view* line);
-  /// The words of the next line that has any, between blanks; false at the end of the text.
+  /// The words of the next line that has any, between separators; false at the end of the text.
   bool NextWords(std::vector<std::string_view>* words);
+  /// From here on words are separated by this; at the beginning by blanks.
+  void SeparateAt(char separator) { separator_ = separator; }
 
   const std::string& file() const { return file_; }
   /// "a.ply:12", of the line that came last.
@@ -33,7 +35,12 @@ class TextLines {
   std::string_view text_;
   std::size_t position_ = 0;
   std::size_t number_ = 0;
+  char separator_ = ' ';
 };
+
+/// The words of a line. Where the separator is no blank, blanks about words are left out, and a
+/// word may be empty; a line of blanks has no word.
+void SplitLine(std::string_view line, char separator, std::vector<std::string_view>* words);
 
 /// A word for a message: in quotes, cut where it is long, without what cannot be printed.
 std::string Quoted(std::string_view word);

@@ -115,9 +115,7 @@ PointTable ReadTextRecords(const std::vector<Field>& fields, std::size_t count, 
   table.size = count;
   std::vector<char> used;
   std::size_t stride = 0;
-  std::size_t words = 0;
   for (const Field& field : fields) {
-    words += field.count;
     used.push_back(!field.list_count && IsUsed(field.name) ? 1 : 0);
     if (used.back() != 0) {
       const NumberType type = StoredAs(field.type);
@@ -128,12 +126,11 @@ PointTable ReadTextRecords(const std::vector<Field>& fields, std::size_t count, 
   for (Column& column : table.columns) {
     column.stride = stride;
   }
-  // A digit and a blank a number, though none after the last.
-  if (words > 0 && count > (lines->left() + 1) / 2 / words) {
-    throw InputError(lines->file() + ": " + std::to_string(count) + " records of " +
-                     std::to_string(words) + " numbers do not fit into the " +
-                     std::to_string(lines->left()) + " bytes that follow the header; expected a " +
-                     "whole file.");
+  // A digit and the end of the line, though no end after the last.
+  if (count > (lines->left() + 1) / 2 && !fields.empty()) {
+    throw InputError(lines->file() + ": " + std::to_string(count) +
+                     " records do not fit into the " + std::to_string(lines->left()) +
+                     " bytes that follow the header; expected a whole file.");
   }
   table.bytes.reserve(count * stride);
   std::vector<std::string_view> line;

@@ -104,7 +104,8 @@ TEST(PointFiles, RefusesBrokenFiles) {
   };
   EXPECT_THAT(message(folder.path() / "none.ply"), HasSubstr("none.ply: cannot be read"));
   EXPECT_THAT(message(folder.path() / "none.bin"), HasSubstr("none.bin: cannot be read"));
-  EXPECT_THAT(message(folder.Write("a.xyz", "1 2 3")), HasSubstr("expected .bin, .pcd or .ply"));
+  EXPECT_THAT(message(folder.Write("a.las", "1 2 3")),
+              HasSubstr("expected one of .bin, .pcd, .ply, .npy"));
   WritePly(folder.path() / "whole.ply", testing_support::Room(100, 1));
   const std::string whole = ReadFile(folder.path() / "whole.ply");
   const auto torn = folder.Write("torn.ply", whole.substr(0, whole.size() / 2));
