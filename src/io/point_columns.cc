@@ -23,6 +23,7 @@ const Names kIntensity = {"intensity", "reflectivity"};
 const Names kRing = {"ring", "line"};
 const Names kTime = {"t", "time", "timestamp", "offset_time"};
 const Names kLabel = {"label"};
+const Names kTexture = {"s"};  // With it, t is the other coordinate in a picture, and no time.
 const std::array<Names, 3> kPoint = {Names{"x"}, Names{"y"}, Names{"z"}};
 const std::array<Names, 3> kNormal = {Names{"nx", "normal_x"}, Names{"ny", "normal_y"},
                                       Names{"nz", "normal_z"}};
@@ -201,8 +202,9 @@ void SetOptional(const PointTable& table, const std::vector<char>& keep, PointCl
       cloud->label.push_back(static_cast<std::int32_t>(label));  // The same 32 bits.
     }
   }
-  if (const Column* column = Find(table, kTime)) {
-    SetTimes(kept(*column), IsWhole(column->type), cloud);
+  const Column* const time = Find(table, kTime);
+  if (time != nullptr && (time->name.size() > 1 || Find(table, kTexture) == nullptr)) {
+    SetTimes(kept(*time), IsWhole(time->type), cloud);
   }
   if (std::optional<Triple> normals = FindTriple(table, kNormal)) {
     for (std::vector<double>& values : *normals) {
@@ -236,8 +238,8 @@ bool IsUsed(std::string_view name) {
   const auto is_among = [&](const Names& names) {
     return std::find(names.begin(), names.end(), lower) != names.end();
   };
-  return is_among(kIntensity) || is_among(kRing) || is_among(kTime) || is_among(kLabel) ||
-         std::any_of(kPoint.begin(), kPoint.end(), is_among) ||
+  return is_among(kTexture) || is_among(kIntensity) || is_among(kRing) || is_among(kTime) ||
+         is_among(kLabel) || std::any_of(kPoint.begin(), kPoint.end(), is_among) ||
          std::any_of(kNormal.begin(), kNormal.end(), is_among);
 }
 

@@ -56,7 +56,7 @@ struct PointTable {
 /// Whether CloudOf uses a column of this name, in upper or lower case. These are, each with the
 /// names it may have:
 ///   x, y, z; nx ny nz, or normal_x normal_y normal_z; intensity, reflectivity; ring, line;
-///   t, time, timestamp, offset_time; label.
+///   t, time, timestamp, offset_time; label. With s, t is a coordinate in a picture, and not used.
 bool IsUsed(std::string_view name);
 
 /// The cloud. Points with a coordinate that is NaN, infinite or beyond 1e9 m are dropped and

@@ -7,7 +7,9 @@
 #include <pcl/io/pcd_io.h>
 #include <pcl/io/ply_io.h>
 #include <pcl/point_types.h>
+#include <sys/resource.h>
 
+#include <csignal>
 #include <random>
 
 #include "icpscape/common/error.h"
@@ -243,6 +245,42 @@ TEST(PointFiles, TimesHaveTheirUnits) {
       EXPECT_NEAR(seconds[static_cast<std::size_t>(i)], 0.1 / 64 * ((i + 7) % kPoints), 2e-6) << i;
     }
   }
+}
+
+TEST(PointFiles, CoordinatesOfAPictureAreNoTimes) {
+  const TemporaryFolder folder;
+  const auto times = [&](const std::vector<TestField>& more) {
+    std::vector<TestField> fields = {{"x"}, {"y"}, {"z"}};
+    fields.insert(fields.end(), more.begin(), more.end());
+    return Read(folder.Write("a.ply", PlyFile(fields, kPoints, ValueOf, "binary_little_endian")))
+        .time_s.size();
+  };
+  EXPECT_EQ(times({{"s"}, {"t"}}), 0U);
+  EXPECT_EQ(times({{"t"}}), static_cast<std::size_t>(kPoints));
+  EXPECT_EQ(times({{"s"}, {"time"}}), static_cast<std::size_t>(kPoints));
+}
+
+// On a full disk, which a limit on the size of files stands for.
+TEST(PointFiles, APlyFileIsWholeOrNotThere) {
+  const TemporaryFolder folder;
+  const PointCloud cloud = testing_support::Room(3000, 1);
+  WritePly(folder.path() / "old.ply", testing_support::Room(10, 1));
+  rlimit before;
+  getrlimit(RLIMIT_FSIZE, &before);
+  const auto old_handler = std::signal(SIGXFSZ, SIG_IGN);
+  const rlimit little = {20000, before.rlim_max};
+  setrlimit(RLIMIT_FSIZE, &little);
+  const std::string message =
+      MessageOf<InputError>([&] { WritePly(folder.path() / "new.ply", cloud); });
+  const std::string again =
+      MessageOf<InputError>([&] { WritePly(folder.path() / "old.ply", cloud); });
+  setrlimit(RLIMIT_FSIZE, &before);
+  std::signal(SIGXFSZ, old_handler);
+  EXPECT_THAT(message, HasSubstr("new.ply: cannot be written"));
+  EXPECT_THAT(again, HasSubstr("old.ply: cannot be written"));
+  EXPECT_EQ(Read(folder.path() / "old.ply").size(), 10U);
+  const auto files = std::filesystem::directory_iterator(folder.path());
+  EXPECT_EQ(std::distance(begin(files), end(files)), 1);
 }
 
 TEST(PointFiles, RefusesFieldsThatAreNot) {
