@@ -98,7 +98,7 @@ void Landscape() {
     const PathSection section = {path, options.u_min, options.u_max};
     const auto iterates = MinimizeEach(set.objectives(), T_initial, MinimizerFromFlags());
     ReportEnds(iterates, section, manifest);
-    WriteIterates(iterates, section, &run);
+    WriteIterates(iterates, section, pair.origins, &run);
     manifest->AddTiming("iterates");
   }
   Draw(pair.title, &run);

@@ -77,13 +77,15 @@ void Register() {
     throw ComputationError(objective.Name() + ": " + verdict.no_pose);
   }
   const SE3d& T = summary.T_target_source();
-  ReportRegistration(objective.Name(), registered, &run);
+  ReportRegistration(objective.Name(), registered, pair.origins, &run);
   const PointCloud& source = scans.source.cloud();
   ReportDisplacement("motion", "motion", MotionOfSensor(source, scans.target.cloud(), T), manifest);
   PrintVerdict(verdict);
   WriteVerdicts(verdicts, &run);
   manifest->SetResult("searches_built", static_cast<double>(SearchesBuilt()));
-  WritePly(run.File("aligned.ply"), source.Transformed(T));
+  PointCloud aligned = source.Transformed(T);
+  aligned.origin = pair.origins.target;
+  WritePly(run.File("aligned.ply"), aligned);
   const auto report_off = [&](const char* what, const char* name, const SE3d& T_reference) {
     ReportDisplacement(what, name, DisplacementAt(CentroidOf(source), T_reference.Inverse() * T),
                        manifest);

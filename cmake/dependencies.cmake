@@ -12,11 +12,15 @@ if("core" IN_LIST ICPSCAPE_COMPONENTS)
 endif()
 
 if("io" IN_LIST ICPSCAPE_COMPONENTS)
-  enable_language(C)  # PCL's package asks for it.
   find_package(OpenSSL REQUIRED COMPONENTS Crypto)
   find_package(nlohmann_json REQUIRED)
+  find_package(liblzf REQUIRED)
+endif()
+
+if(ICPSCAPE_BUILD_TESTS OR ICPSCAPE_BUILD_BENCHMARKS)  # A peer.
+  enable_language(C)  # PCL's package asks for it.
   find_package(PCL 1.12 REQUIRED COMPONENTS common io)
-  # PCL's own target asks every user for SSE4 flags and for VTK; reading files needs neither.
+  # PCL's own target asks every user for SSE4 flags and for VTK; our tests need neither.
   add_library(icpscape_pcl INTERFACE)
   target_include_directories(icpscape_pcl SYSTEM INTERFACE ${PCL_INCLUDE_DIRS})
   target_link_libraries(icpscape_pcl INTERFACE pcl_common pcl_io)

@@ -8,10 +8,10 @@ packages=(
   # build
   g++ cmake ninja-build ccache git pkg-config ca-certificates
   # libraries
-  libeigen3-dev libceres-dev libgoogle-glog-dev libgflags-dev libpcl-dev
+  libeigen3-dev libceres-dev libgoogle-glog-dev libgflags-dev liblzf-dev
   libtbb-dev libembree-dev libssl-dev nlohmann-json3-dev libboost-dev
   # tests
-  libgtest-dev libgmock-dev libnanoflann-dev
+  libgtest-dev libgmock-dev libnanoflann-dev libpcl-dev
   # figures
   python3 python3-matplotlib python3-numpy
 )

@@ -3,6 +3,7 @@
 
 #include <gflags/gflags.h>
 
+#include <algorithm>
 #include <filesystem>
 #include <iostream>
 #include <utility>
@@ -13,7 +14,9 @@
 #include "apps/flags/sensor.h"
 #include "apps/flags/sequence.h"
 #include "apps/run/flag.h"
+#include "icpscape/cloud/units.h"
 #include "icpscape/common/error.h"
+#include "icpscape/common/text.h"
 #include "icpscape/io/sequences.h"
 #include "icpscape/io/transform.h"
 
@@ -24,7 +27,8 @@ DEFINE_int32(frame, -1,
 static const icpscape::FlagMark frame_mark(&FLAGS_frame, icpscape::kShown);
 DEFINE_int32(target_frame, -1, "Frame number of the target; -1 is the frame before --frame.");
 static const icpscape::FlagMark target_frame_mark(&FLAGS_target_frame, icpscape::kShown);
-DEFINE_string(source, "", "Source cloud (.bin, .pcd or .ply), instead of a sequence.");
+DEFINE_string(source, "",
+              "Source cloud, instead of a sequence; docs/inputs.md has the kinds of files.");
 static const icpscape::FlagMark source_mark(&FLAGS_source, icpscape::kShown);
 DEFINE_string(target, "", "Target cloud, with --source.");
 static const icpscape::FlagMark target_mark(&FLAGS_target, icpscape::kShown);
@@ -60,6 +64,46 @@ PointCloud Read(const std::string& role, const Scan& scan, Manifest* manifest) {
   manifest->SetResult(role + "_dropped_non_finite", static_cast<double>(dropped.non_finite));
   manifest->SetResult(role + "_dropped_zero", static_cast<double>(dropped.zero));
   return cloud;
+}
+
+// A cloud that lies far out is registered about its middle; see docs/conventions.md.
+void PrintOrigin(const std::string& role, const Vec3& origin, Manifest* manifest) {
+  if (origin.isZero(0)) {
+    return;
+  }
+  const std::string text =
+      Fixed(origin.x(), 0) + " " + Fixed(origin.y(), 0) + " " + Fixed(origin.z(), 0);
+  std::cout << role << ": lies far out, and is registered less its origin " << text << " (m)\n";
+  manifest->SetResult(role + "_origin", text);
+}
+
+// Warns of a cloud whose units look like millimetres, and refuses a pair of two units: no motion
+// takes one to the other. Spacings cost a search, so they are asked for where ranges are odd.
+void CheckUnits(const ScanPair& pair) {
+  const double source_m = RangeOf(pair.source).range_m, target_m = RangeOf(pair.target).range_m;
+  constexpr double kOddRangeM = 1000, kOddFactor = 100;
+  if (std::max(source_m, target_m) < kOddRangeM &&
+      std::max(source_m, target_m) < kOddFactor * std::min(source_m, target_m)) {
+    return;
+  }
+  const CloudScale source = ScaleOf(pair.source), target = ScaleOf(pair.target);
+  if (source.IsThousandfold(target) || target.IsThousandfold(source)) {
+    const bool larger = source.IsThousandfold(target);
+    throw InputError(
+        pair.title + ": the source is " +
+        Fixed(larger ? source.range_m / target.range_m : target.range_m / source.range_m, 0) +
+        (larger ? " times as large as" : " times smaller than") +
+        " the target, and its points lie as far apart; expected both in metres.");
+  }
+  const auto warn = [](const char* role, const CloudScale& scale) {
+    if (scale.LooksLikeMillimetres()) {
+      std::cerr << "warning: the " << role << " looks like millimetres (half of it beyond "
+                << Fixed(scale.range_m, 0) << " m, points " << Fixed(scale.spacing_m, 1)
+                << " m apart); expected metres: 0.001 times its coordinates\n";
+    }
+  };
+  warn("source", source);
+  warn("target", target);
 }
 
 void CheckFrames() {
@@ -143,7 +187,7 @@ ScanPair ReadPair(Manifest* manifest) {
     pair = files.Pair(1, 0, read);
     pair.title = files.title;
     if (!GroundTruthFile().empty()) {
-      pair.T_ground_truth = ReadTransform(GroundTruthFile());
+      pair.T_ground_truth = pair.origins.FromUser(ReadTransform(GroundTruthFile()));
       manifest->AddInput(GroundTruthFile());
     }
   } else {
@@ -152,13 +196,16 @@ ScanPair ReadPair(Manifest* manifest) {
   if (ReverseFromFlags()) {
     pair.Reverse();
   }
+  CheckUnits(pair);
+  PrintOrigin("source", pair.origins.source, manifest);
+  PrintOrigin("target", pair.origins.target, manifest);
   manifest->AddTiming("read");
   return pair;
 }
 
 SE3d InitialPose(const ScanPair& pair, Manifest* manifest) {
   if (FLAGS_initial == "identity") {
-    return SE3d();
+    return pair.origins.FromUser(SE3d());
   }
   if (FLAGS_initial == "previous_motion") {
     if (!pair.T_predicted) {
@@ -168,7 +215,7 @@ SE3d InitialPose(const ScanPair& pair, Manifest* manifest) {
     return *pair.T_predicted;
   }
   manifest->AddInput(FLAGS_initial);
-  return ReadTransform(FLAGS_initial);
+  return pair.origins.FromUser(ReadTransform(FLAGS_initial));
 }
 
 PreparedPair PrepareFromFlags(const std::vector<std::string>& metrics, ScanPair* pair,

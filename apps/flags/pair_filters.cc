@@ -26,7 +26,7 @@ namespace {
 
 SE3d Estimate(const ScanPair& pair, Manifest* manifest) {
   if (FLAGS_filter_estimate == "identity") {
-    return SE3d();
+    return pair.origins.FromUser(SE3d());
   }
   if (FLAGS_filter_estimate == "ground_truth") {
     if (!pair.T_ground_truth) {
@@ -43,7 +43,7 @@ SE3d Estimate(const ScanPair& pair, Manifest* manifest) {
     return *pair.T_predicted;
   }
   manifest->AddInput(FLAGS_filter_estimate);
-  return ReadTransform(FLAGS_filter_estimate);
+  return pair.origins.FromUser(ReadTransform(FLAGS_filter_estimate));
 }
 
 }  // namespace

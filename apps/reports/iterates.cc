@@ -23,7 +23,8 @@ PathProjection Project(const SE3d& T, const PathSection& section) {
 }  // namespace
 
 void WriteIterates(const std::vector<MetricIterates>& all,
-                   const std::optional<PathSection>& section, Run* run) {
+                   const std::optional<PathSection>& section, const PairOrigins& origins,
+                   Run* run) {
   constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
   Table csv({"metric",
              "iteration",
@@ -59,7 +60,7 @@ void WriteIterates(const std::vector<MetricIterates>& all,
         row.push_back(Number(value));
       }
       double x[7];
-      it.T_target_source.ToParameters(x);
+      origins.ToUser(it.T_target_source).ToParameters(x);
       for (const double value : x) {
         row.push_back(Number(value));
       }

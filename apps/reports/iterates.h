@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "apps/run/run.h"
+#include "icpscape/cloud/origin.h"
 #include "icpscape/landscape/path.h"
 #include "icpscape/minimizer/minimize_each.h"
 
@@ -20,9 +21,10 @@ struct PathSection {
 
 /// Writes iterates.csv, every iterate of every metric: its nearest u on the section and its
 /// distance from the path there (see PathProjection; rotations count kRotationLength_m; nan without
-/// a section), the objective's values, the step before it, and its pose.
+/// a section), the objective's values, the step before it, and its pose in the coordinates of the
+/// user.
 void WriteIterates(const std::vector<MetricIterates>& all,
-                   const std::optional<PathSection>& section, Run* run);
+                   const std::optional<PathSection>& section, const PairOrigins& origins, Run* run);
 
 /// Prints the iterates of one minimisation, one a line.
 void PrintIterates(const MinimizerSummary& summary);

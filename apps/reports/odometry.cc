@@ -6,6 +6,7 @@
 #include <cstdio>
 #include <iostream>
 
+#include "icpscape/cloud/origin.h"
 #include "icpscape/common/error.h"
 #include "icpscape/common/text.h"
 #include "icpscape/io/kitti.h"
@@ -18,7 +19,18 @@ namespace {
 
 constexpr double kDegrees = 180 / M_PI;
 
-void WriteFrames(const ScanSequence& sequence, const std::vector<FrameRecord>& records, Run* run) {
+// In the coordinates of the user; the frames of all scans have the same origin.
+std::vector<SE3d> PosesOf(const ResumableOdometry& odometry) {
+  const PairOrigins origins = {odometry.origin(), odometry.origin()};
+  std::vector<SE3d> T_world_lidar;
+  for (const FrameRecord& record : odometry.records()) {
+    T_world_lidar.push_back(origins.ToUser(record.result.T_world_lidar));
+  }
+  return T_world_lidar;
+}
+
+void WriteFrames(const ScanSequence& sequence, const std::vector<FrameRecord>& records,
+                 const std::vector<SE3d>& T_world_lidar, Run* run) {
   Table frames({"frame",
                 "scan",
                 "time_s",
@@ -43,7 +55,7 @@ void WriteFrames(const ScanSequence& sequence, const std::vector<FrameRecord>& r
   Table timings({"frame", "read_s", "odometry_s"});
   for (std::size_t i = 0; i < records.size(); ++i) {
     const FrameResult& r = records[i].result;
-    const Vec3& t = r.T_world_lidar.t();
+    const Vec3& t = T_world_lidar[i].t();
     frames.AddRow({std::to_string(i),
                    sequence.scans[i].name,
                    Number(sequence.times_s[i]),
@@ -135,9 +147,7 @@ NamedTrajectory ReportOdometry(const ResumableOdometry& odometry, Run* run) {
   const ScanSequence& sequence = odometry.sequence();
   Trajectory lidar;
   lidar.times_s = sequence.times_s;
-  for (const FrameRecord& record : odometry.records()) {
-    lidar.T_world_body.push_back(record.result.T_world_lidar);
-  }
+  lidar.T_world_body = PosesOf(odometry);
   const SE3d Tr = sequence.T_camera_lidar.value_or(SE3d());  // Without a camera: the lidar's poses.
   NamedTrajectory named;
   named.name = sequence.title;
@@ -150,9 +160,11 @@ NamedTrajectory ReportOdometry(const ResumableOdometry& odometry, Run* run) {
   }
   WriteKittiTrajectory(run->File("trajectory_kitti.txt"), named.pair.estimate);
   WriteTumTrajectory(run->File("trajectory_tum.txt"), lidar);
-  WriteFrames(sequence, odometry.records(), run);
+  WriteFrames(sequence, odometry.records(), lidar.T_world_body, run);
   if (odometry.map()) {
-    WritePly(run->File("map.ply"), odometry.map()->Cloud(SE3d()));
+    PointCloud map = odometry.map()->Cloud(SE3d());
+    map.origin = odometry.origin();
+    WritePly(run->File("map.ply"), map);
   }
   ReportDoubts(odometry.records(), run->manifest());
   std::cout << "times: " << sequence.TimesText() << std::endl;

@@ -52,20 +52,22 @@ void ReportDisplacement(const std::string& what, const std::string& name,
   manifest->SetResult(name + "_deg", degrees);
 }
 
-void ReportRegistration(const std::string& name, const Registered& registered, Run* run) {
+void ReportRegistration(const std::string& name, const Registered& registered,
+                        const PairOrigins& origins, Run* run) {
   const MinimizerSummary& summary = registered.summary;
   PrintIterates(summary);
   if (registered.stages.size() > 1) {
     ReportStages(registered.stages, run);
   }
-  WriteIterates({{name, summary}}, std::nullopt, run);
+  WriteIterates({{name, summary}}, std::nullopt, origins, run);
   std::printf("%s: %s\nfinal cost: %s\n", NameOf(summary.termination), summary.message.c_str(),
               Number(summary.final_cost()).c_str());
   Manifest* const manifest = run->manifest();
   manifest->SetResult("termination", NameOf(summary.termination));
   manifest->SetResult("final_cost", summary.final_cost());
   manifest->SetResult("matching_passes", summary.matching_passes);
-  WriteTextFile(run->File("T_target_source.txt"), FormatTransform(summary.T_target_source()));
+  WriteTextFile(run->File("T_target_source.txt"),
+                FormatTransform(origins.ToUser(summary.T_target_source())));
 }
 
 }  // namespace icpscape

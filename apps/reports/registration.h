@@ -6,6 +6,7 @@
 
 #include "apps/run/run.h"
 #include "icpscape/cloud/displacement.h"
+#include "icpscape/cloud/origin.h"
 #include "icpscape/minimizer/registration.h"
 
 namespace icpscape {
@@ -16,8 +17,10 @@ void ReportDisplacement(const std::string& what, const std::string& name,
                         const Displacement& displacement, Manifest* manifest);
 
 /// Prints and records how a registration by the objective of that name went; writes iterates.csv
-/// and T_target_source.txt, and stages.csv where there were several.
-void ReportRegistration(const std::string& name, const Registered& registered, Run* run);
+/// and T_target_source.txt, with poses in the coordinates of the user, and stages.csv where there
+/// were several.
+void ReportRegistration(const std::string& name, const Registered& registered,
+                        const PairOrigins& origins, Run* run);
 
 }  // namespace icpscape
 

@@ -16,14 +16,16 @@ const std::optional<Mat6>& CovarianceResult::Of(Estimator estimator) const {
 std::vector<CovarianceResult> Covariance(PointCloud source, PointCloud target,
                                          const PairCovarianceOptions& options) {
   options.estimators.Check();
-  const ObjectiveSet set = ObjectivesOf(std::move(source), std::move(target), options);
+  const auto [scans, origins] = PrepareClouds(std::move(source), std::move(target), options);
+  const ObjectiveSet set(scans, options.metrics, options.objective);
   std::vector<CovarianceResult> results;
   for (const Objective& objective : set.objectives()) {
-    RegistrationUncertainty found = RegisterWithUncertainty(
-        objective, options.T_initial, options.estimators, options.length_scale_m, options.threads);
+    RegistrationUncertainty found =
+        RegisterWithUncertainty(objective, origins.FromUser(options.T_initial), options.estimators,
+                                options.length_scale_m, options.threads);
     CovarianceResult result;
     result.metric = objective.metric().name;
-    result.T_target_source = found.registration.T_target_source();
+    result.T_target_source = origins.ToUser(found.registration.T_target_source());
     result.termination = found.registration.termination;
     VerdictOptions judge = options.verdict;
     judge.minimizer = PreciseMinimizer();

@@ -35,7 +35,8 @@ struct CovarianceResult {
   /// What each estimator says, in the order of AllOf<Estimator>.
   std::vector<EstimatedCovariance> covariances;
   /// The 6x6 covariance of xi in T_true = T_target_source Exp(xi), xi = [omega; v]: rotation about
-  /// x, y, z (rad), then translation along x, y, z (m), in the frame of the source. Nothing where
+  /// x, y, z (rad), then translation along x, y, z (m), in the frame of the source, less its origin
+  /// where it lies far out (see PointCloud::origin): rotation is about that point. Nothing where
   /// the pairs do not determine all six directions, or the estimator lacks what it needs:
   /// EstimatedCovariance::reason says which.
   const std::optional<Mat6>& Of(Estimator estimator) const;

@@ -19,9 +19,11 @@ LandscapeResult Landscape(PointCloud source, PointCloud target, const SE3d& T_re
   CurveOptions curve = options.curve;
   curve.threads = options.threads;
   curve.Check();
-  const Path path(options.T_initial, T_reference, options.path, source.sensor);
-  const ObjectiveSet set = ObjectivesOf(std::move(source), std::move(target), options);
-  return {EvaluateCurves(set.objectives(), path, curve), path};
+  const auto [scans, origins] = PrepareClouds(std::move(source), std::move(target), options);
+  const Path path(origins.FromUser(options.T_initial), origins.FromUser(T_reference), options.path,
+                  scans.source.cloud().sensor);
+  const ObjectiveSet set(scans, options.metrics, options.objective);
+  return {EvaluateCurves(set.objectives(), path, curve), path, origins};
 }
 
 }  // namespace icpscape

@@ -23,8 +23,14 @@ struct LandscapeOptions : PairOptions {
 struct LandscapeResult {
   /// One for each metric, in their order. Curve::Minimum gives the lowest point.
   std::vector<Curve> curves;
-  /// Pose(u) of each point: u = 0 is T_initial, u = 1 the reference.
+  /// Between the frames of the clouds, less their origins where they lie far out (see
+  /// PointCloud::origin).
   Path path;
+  PairOrigins origins;
+
+  /// The pose of each point in the coordinates of the user: u = 0 is T_initial, u = 1 the
+  /// reference.
+  SE3d Pose(double u) const { return origins.ToUser(path.Pose(u)); }
 };
 
 /// Evaluates the objective functions of two clouds along a path of poses T_u through T_initial

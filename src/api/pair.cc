@@ -88,20 +88,20 @@ void PairOptions::Check() const {
   Require(threads >= 1, "threads", threads, "at least 1");
 }
 
-PreparedPair PrepareClouds(PointCloud source, PointCloud target, const PairOptions& options) {
+PreparedClouds PrepareClouds(PointCloud source, PointCloud target, const PairOptions& options) {
   options.Check();
   CheckCloud(source, "source");
   CheckCloud(target, "target");
   DropInvalidPoints(&source);
   DropInvalidPoints(&target);
-  return PreparePair(std::move(source), std::move(target),
-                     NeedsOf(options.metrics, options.objective.matching), options.preparation,
-                     options.threads);
-}
-
-ObjectiveSet ObjectivesOf(PointCloud source, PointCloud target, const PairOptions& options) {
-  return {PrepareClouds(std::move(source), std::move(target), options), options.metrics,
-          options.objective};
+  TakeOutOrigin(&source);
+  TakeOutOrigin(&target);
+  ShareOrigin(&source, &target);
+  const PairOrigins origins = {source.origin, target.origin};
+  return {PreparePair(std::move(source), std::move(target),
+                      NeedsOf(options.metrics, options.objective.matching), options.preparation,
+                      options.threads),
+          origins};
 }
 
 }  // namespace icpscape

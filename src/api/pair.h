@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "icpscape/cloud/origin.h"
 #include "icpscape/objective/objective_set.h"
 #include "icpscape/preparation/prepared_scan.h"
 
@@ -28,18 +29,21 @@ struct PairOptions {
   void Check() const;
 };
 
+/// Two clouds, prepared. Poses are between their frames, less what was taken out of the
+/// coordinates; `origins` takes poses of the user there and back.
+struct PreparedClouds {
+  PreparedPair scans;
+  PairOrigins origins;
+};
+
 /// Two clouds, checked and prepared for the metrics; what the three calls begin with. Points that
-/// no registration can use are dropped: those that are not finite or beyond 1000 km, and those at
-/// the origin. Normals are estimated and look to PointCloud::sensor; ones in the clouds are
-/// replaced.
+/// no registration can use are dropped: those that are not finite or beyond 1e9 m, and those at 0.
+/// Normals are estimated and look to PointCloud::sensor; ones in the clouds are replaced. A cloud
+/// that lies more than 1000 m out has its middle taken out, unless it has an origin already.
 ///
 /// Throws UsageError for options out of range, InputError where an array of a cloud has another
 /// length than x, or where edge and planar points are asked for and scan lines cannot be found.
-PreparedPair PrepareClouds(PointCloud source, PointCloud target, const PairOptions& options);
-
-/// The objectives of the metrics over two clouds, which are prepared as above. Throws
-/// ComputationError where a metric has no source point, and what PrepareClouds throws.
-ObjectiveSet ObjectivesOf(PointCloud source, PointCloud target, const PairOptions& options);
+PreparedClouds PrepareClouds(PointCloud source, PointCloud target, const PairOptions& options);
 
 }  // namespace icpscape
 

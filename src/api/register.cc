@@ -21,10 +21,10 @@ RegisterOptions RegisterOptions::Robust() {
 RegisterResult Register(PointCloud source, PointCloud target, const RegisterOptions& options) {
   MinimizerOptions minimizer = options.minimizer;
   minimizer.threads = options.threads;
-  const Registration registration(PrepareClouds(std::move(source), std::move(target), options),
-                                  options.metrics, options.weights, options.objective,
+  const auto [scans, origins] = PrepareClouds(std::move(source), std::move(target), options);
+  const Registration registration(scans, options.metrics, options.weights, options.objective,
                                   options.preset, options.threads);
-  Registered registered = registration.Run(options.T_initial, minimizer);
+  Registered registered = registration.Run(origins.FromUser(options.T_initial), minimizer);
   MinimizerSummary& summary = registered.summary;
   VerdictOptions judge = options.verdict;
   judge.minimizer = minimizer;
@@ -35,6 +35,9 @@ RegisterResult Register(PointCloud source, PointCloud target, const RegisterOpti
   result.stages = std::move(registered.stages);
   result.message = std::move(summary.message);
   result.iterates = std::move(summary.iterates);
+  for (Iterate& iterate : result.iterates) {
+    iterate.T_target_source = origins.ToUser(iterate.T_target_source);
+  }
   if (result.Usable()) {
     const Iterate& last = result.iterates.back();
     result.T_target_source = last.T_target_source;

@@ -59,8 +59,11 @@ struct RegisterResult {
 /// Pairs are found anew after each step of Ceres' trust region.
 ///
 /// Clouds are in metres, each in its own frame, with the sensor at PointCloud::sensor (the origin
-/// by default). A metric of planes or normals estimates normals from 20 neighbours; those of edges
-/// and planar points need scan lines: PointCloud::ring, or scans whose rings can be recovered.
+/// by default). What lies far out is registered less its origin (see PointCloud::origin), and poses
+/// are given and returned in the coordinates of the user. The observer, and directions in the
+/// verdict, see the clouds less their origins. A metric of planes or normals estimates normals from
+/// 20 neighbours; those of edges and planar points need scan lines: PointCloud::ring, or scans
+/// whose rings can be recovered.
 ///
 /// icpscape-register with the same options finds the same bits.
 ///

@@ -9,8 +9,9 @@ Displacement DisplacementAt(const Vec3& c, const SE3d& dT) {
 
 Displacement MotionOfSensor(const PointCloud& source, const PointCloud& target,
                             const SE3d& T_target_source) {
-  return {(T_target_source * source.sensor - target.sensor).norm(),
-          T_target_source.LogRotation().norm()};
+  const bool far = !source.origin.isZero(0) || !target.origin.isZero(0);
+  const Vec3 from = far ? Vec3(source.sensor + (source.origin - target.origin)) : target.sensor;
+  return {(T_target_source * source.sensor - from).norm(), T_target_source.LogRotation().norm()};
 }
 
 Mat6 AboutPoint(const Vec3& c, double lever_m) {

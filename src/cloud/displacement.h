@@ -18,7 +18,9 @@ struct Displacement {
 Displacement DisplacementAt(const Vec3& c, const SE3d& dT);
 
 /// How far the sensor went, and turned, from the target to the source: |T s_source - s_target| with
-/// PointCloud::sensor s of each.
+/// PointCloud::sensor s of each. Clouds far from the user's origin are scans in one frame that the
+/// sensor moved through, and where it was is seldom known: for these it is how far the pose takes
+/// s_source, in the coordinates of the user.
 Displacement MotionOfSensor(const PointCloud& source, const PointCloud& target,
                             const SE3d& T_target_source);
 

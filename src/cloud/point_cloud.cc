@@ -1,8 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "icpscape/cloud/point_cloud.h"
 
-#include <algorithm>
-#include <cmath>
+#include "icpscape/cloud/usable_point.h"
 
 namespace icpscape {
 namespace {
@@ -15,9 +14,6 @@ void SelectArray(const std::vector<T>& in, const std::vector<char>& keep, std::v
     }
   }
 }
-
-// Beyond any lidar, and far below where squared distances overflow.
-constexpr float kLargestCoordinateM = 1e6F;
 
 }  // namespace
 
@@ -56,17 +52,9 @@ PointCloud PointCloud::Transformed(const SE3d& T_other_this) const {
 
 DroppedPoints DropInvalidPoints(PointCloud* cloud) {
   DroppedPoints dropped;
-  std::vector<char> keep(cloud->size(), 1);
+  std::vector<char> keep(cloud->size());
   for (std::size_t i = 0; i < cloud->size(); ++i) {
-    const float x = cloud->x[i], y = cloud->y[i], z = cloud->z[i];
-    const float largest = std::max({std::abs(x), std::abs(y), std::abs(z)});
-    if (std::isnan(x + y + z) || !(largest <= kLargestCoordinateM)) {
-      ++dropped.non_finite;
-      keep[i] = 0;
-    } else if (x == 0 && y == 0 && z == 0) {
-      ++dropped.zero;
-      keep[i] = 0;
-    }
+    keep[i] = IsUsable(cloud->x[i], cloud->y[i], cloud->z[i], &dropped) ? 1 : 0;
   }
   if (dropped.non_finite + dropped.zero > 0) {
     *cloud = cloud->Select(keep);

@@ -5,8 +5,19 @@
 
 namespace icpscape {
 
+void ScanPair::SettleOrigins() {
+  ShareOrigin(&source, &target);
+  origins = {source.origin, target.origin};
+  for (std::optional<SE3d>* T : {&T_ground_truth, &T_predicted}) {
+    if (*T) {
+      *T = origins.FromUser(**T);
+    }
+  }
+}
+
 void ScanPair::Reverse() {
   std::swap(source, target);
+  std::swap(origins.source, origins.target);
   for (std::optional<SE3d>* T : {&T_ground_truth, &T_predicted}) {
     if (*T) {
       *T = (*T)->Inverse();

@@ -156,6 +156,7 @@ ScanPair ScanSequence::Pair(
   }
   pair.source = read("source", scans[static_cast<std::size_t>(source)]);
   pair.target = read("target", scans[static_cast<std::size_t>(target)]);
+  pair.SettleOrigins();
   return pair;
 }
 

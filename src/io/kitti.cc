@@ -2,14 +2,15 @@
 #include "icpscape/io/kitti.h"
 
 #include <array>
-#include <cstdint>
 #include <cstdio>
-#include <cstring>
 #include <fstream>
 #include <sstream>
 
 #include "icpscape/common/error.h"
+#include "icpscape/io/bin_layout.h"
+#include "icpscape/io/point_columns.h"
 #include "icpscape/io/transform.h"
+#include "icpscape/io/whole_file.h"
 
 namespace icpscape {
 namespace {
@@ -25,37 +26,21 @@ std::ifstream Open(const std::filesystem::path& path, const char* what) {
 }  // namespace
 
 PointCloud ReadVelodyne(const std::filesystem::path& path, DroppedPoints* dropped) {
-  std::ifstream in = Open(path, "a KITTI velodyne scan");
-  const std::uintmax_t bytes = std::filesystem::file_size(path);
+  PointTable table;
+  table.place = path.string();
+  table.bytes = ReadWholeFile(path, "a KITTI velodyne scan");
   constexpr std::size_t kRecord = 4 * sizeof(float);
-  if (bytes % kRecord != 0) {
-    throw InputError(path.string() + ": " + std::to_string(bytes) +
+  if (table.bytes.size() % kRecord != 0) {
+    throw InputError(path.string() + ": " + std::to_string(table.bytes.size()) +
                      " bytes; expected a multiple of 16 (x y z intensity as float32).");
   }
-  std::vector<float> values(static_cast<std::size_t>(bytes) / sizeof(float));
-  in.read(reinterpret_cast<char*>(values.data()), static_cast<std::streamsize>(bytes));
-  if (!in) {
-    throw InputError(path.string() + ": reading stopped before byte " + std::to_string(bytes) +
-                     "; expected the whole scan.");
+  CheckFourFloats(table.place, table.bytes);
+  table.size = table.bytes.size() / kRecord;
+  for (const char* name : {"x", "y", "z", "intensity"}) {
+    table.columns.push_back(
+        {name, NumberType::kFloat, table.columns.size() * sizeof(float), kRecord});
   }
-  PointCloud cloud;
-  const std::size_t size = values.size() / 4;
-  for (const auto array :
-       {&PointCloud::x, &PointCloud::y, &PointCloud::z, &PointCloud::intensity}) {
-    (cloud.*array).resize(size);
-  }
-  for (std::size_t i = 0; i < size; ++i) {
-    cloud.x[i] = values[4 * i];
-    cloud.y[i] = values[4 * i + 1];
-    cloud.z[i] = values[4 * i + 2];
-    cloud.intensity[i] = values[4 * i + 3];
-  }
-  *dropped = DropInvalidPoints(&cloud);
-  if (cloud.empty()) {
-    throw InputError(path.string() + ": no usable point among " + std::to_string(size) +
-                     "; expected at least one that is finite and not (0, 0, 0).");
-  }
-  return cloud;
+  return CloudOf(table, dropped);
 }
 
 void ReadPointTimes(const std::filesystem::path& path, PointCloud* cloud) {

@@ -11,8 +11,8 @@
 namespace icpscape {
 
 /// Reads a KITTI velodyne scan: little-endian float32 x y z intensity. Invalid points are dropped
-/// and counted. Throws InputError where the file is missing, its size is no multiple of 16, or no
-/// point is left.
+/// and counted. Throws InputError where the file is missing, its size is no multiple of 16, its
+/// numbers are of another layout (see CheckFourFloats), or no point is left.
 PointCloud ReadVelodyne(const std::filesystem::path& path, DroppedPoints* dropped);
 
 /// Gives the points of a scan their times, from a file of one little-endian float32 (s) per point.

@@ -1,131 +1,101 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "icpscape/io/point_files.h"
 
-#include <pcl/PCLPointCloud2.h>
-#include <pcl/common/io.h>
-#include <pcl/console/print.h>
-#include <pcl/conversions.h>
-#include <pcl/io/pcd_io.h>
-#include <pcl/io/ply_io.h>
-#include <pcl/point_types.h>
-
+#include <algorithm>
+#include <array>
+#include <fstream>
 #include <string>
+#include <utility>
+#include <vector>
 
 #include "icpscape/common/error.h"
+#include "icpscape/common/text.h"
 #include "icpscape/io/kitti.h"
+#include "icpscape/io/npy.h"
 #include "icpscape/io/output.h"
-#include "icpscape/io/point_file_header.h"
+#include "icpscape/io/pcd.h"
+#include "icpscape/io/ply.h"
+#include "icpscape/io/text_points.h"
+#include "icpscape/io/whole_file.h"
 
 namespace icpscape {
 namespace {
 
-// PCL prints its own complaints; ours is the one sentence that the user gets.
-class QuietPcl {
- public:
-  QuietPcl() : level_(pcl::console::getVerbosityLevel()) {
-    pcl::console::setVerbosityLevel(pcl::console::L_ALWAYS);
-  }
-  ~QuietPcl() { pcl::console::setVerbosityLevel(level_); }
-  QuietPcl(const QuietPcl&) = delete;
-  QuietPcl& operator=(const QuietPcl&) = delete;
+constexpr std::array<const char*, 7> kKinds = {".bin", ".pcd", ".ply", ".npy",
+                                               ".csv", ".txt", ".xyz"};
 
- private:
-  pcl::console::VERBOSITY_LEVEL level_;
-};
-
-template <class Point>
-PointCloud FromPcl(const pcl::PCLPointCloud2& blob, bool with_intensity) {
-  pcl::PointCloud<Point> points;
-  pcl::fromPCLPointCloud2(blob, points);
-  PointCloud cloud;
-  for (const Point& point : points) {
-    cloud.x.push_back(point.x);
-    cloud.y.push_back(point.y);
-    cloud.z.push_back(point.z);
-    if constexpr (std::is_same_v<Point, pcl::PointXYZI>) {
-      if (with_intensity) {
-        cloud.intensity.push_back(point.intensity);
-      }
-    }
+PointTable ReadTable(const std::string& kind, const std::string& place, std::string bytes) {
+  if (kind == ".ply") {
+    return ReadPly(place, bytes);
   }
-  return cloud;
+  if (kind == ".pcd") {
+    return ReadPcd(place, std::move(bytes));
+  }
+  if (kind == ".npy") {
+    return ReadNpy(place, std::move(bytes));
+  }
+  return ReadTextPoints(place, bytes, kind == ".xyz");
 }
 
-bool IsFloat(const pcl::PCLPointCloud2& blob, const std::string& name) {
-  const int index = pcl::getFieldIndex(blob, name);
-  return index >= 0 &&
-         blob.fields[static_cast<std::size_t>(index)].datatype == pcl::PCLPointField::FLOAT32;
-}
-
-PointCloud ReadWithPcl(const std::filesystem::path& path, bool ply) {
-  pcl::PCLPointCloud2 blob;
-  int status = -1;
-  try {
-    const QuietPcl quiet;
-    if (ply ? PlyHeaderIsSound(path) : PcdHeaderIsSound(path)) {
-      status = ply ? pcl::PLYReader().read(path.string(), blob)
-                   : pcl::PCDReader().read(path.string(), blob);
-    }
-  } catch (const std::exception&) {
-    status = -1;
-  }
-  const std::string kind = ply ? "PLY" : "PCD";
-  const std::size_t points = static_cast<std::size_t>(blob.width) * blob.height;
-  if (status < 0 || blob.data.size() < points * blob.point_step) {
-    throw InputError(path.string() + ": cannot be read; expected a whole " + kind + " file.");
-  }
+std::string HeaderOf(const PointCloud& cloud, const std::string& type) {
+  std::string header = "ply\nformat binary_little_endian 1.0\ncomment icpscape\nelement vertex " +
+                       std::to_string(cloud.size()) + "\n";
   for (const char* name : {"x", "y", "z"}) {
-    if (!IsFloat(blob, name)) {
-      throw InputError(path.string() + ": no field " + name + " of 32-bit floats; expected x y z.");
-    }
+    header += "property " + type + " " + name + "\n";
   }
-  return IsFloat(blob, "intensity") ? FromPcl<pcl::PointXYZI>(blob, true)
-                                    : FromPcl<pcl::PointXYZ>(blob, false);
+  if (!cloud.intensity.empty()) {
+    header += "property float intensity\n";
+  }
+  return header + "end_header\n";
+}
+
+void WritePoint(const PointCloud& cloud, std::size_t i, bool is_near, std::ofstream* out) {
+  const auto write = [&](auto value) {
+    out->write(reinterpret_cast<const char*>(&value), sizeof(value));
+  };
+  const std::vector<float>* const coordinates[] = {&cloud.x, &cloud.y, &cloud.z};
+  for (Eigen::Index k = 0; k < 3; ++k) {
+    const float value = (*coordinates[k])[i];
+    is_near ? write(value) : write(value + cloud.origin[k]);
+  }
+  if (!cloud.intensity.empty()) {
+    write(cloud.intensity[i]);
+  }
 }
 
 }  // namespace
 
+std::string PointFileKind(const std::filesystem::path& path) {
+  std::string extension = path.extension().string();
+  std::transform(extension.begin(), extension.end(), extension.begin(), [](char c) {
+    return 'A' <= c && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c;
+  });
+  const auto found = std::find(kKinds.begin(), kKinds.end(), extension);
+  return found == kKinds.end() ? "" : extension;
+}
+
 PointCloud ReadPointFile(const std::filesystem::path& path, DroppedPoints* dropped) {
-  const std::string extension = path.extension().string();
-  if (extension == ".bin") {
+  const std::string kind = PointFileKind(path);
+  if (kind.empty()) {
+    throw InputError(path.string() + ": extension \"" + path.extension().string() +
+                     "\"; expected one of " + Join({kKinds.begin(), kKinds.end()}) + ".");
+  }
+  if (kind == ".bin") {
     return ReadVelodyne(path, dropped);
   }
-  if (extension != ".pcd" && extension != ".ply") {
-    throw InputError(path.string() + ": extension \"" + extension +
-                     "\"; expected .bin, .pcd or .ply.");
-  }
-  if (!std::filesystem::is_regular_file(path)) {
-    throw InputError(path.string() + ": cannot be read; expected a point cloud.");
-  }
-  PointCloud cloud = ReadWithPcl(path, extension == ".ply");
-  const std::size_t size = cloud.size();
-  *dropped = DropInvalidPoints(&cloud);
-  if (cloud.empty()) {
-    throw InputError(path.string() + ": no usable point among " + std::to_string(size) +
-                     "; expected at least one that is finite and not (0, 0, 0).");
-  }
-  return cloud;
+  return CloudOf(ReadTable(kind, path.string(), ReadWholeFile(path, "a point cloud")), dropped);
 }
 
 void WritePly(const std::filesystem::path& path, const PointCloud& cloud) {
-  pcl::PCLPointCloud2 blob;
-  if (cloud.intensity.empty()) {
-    pcl::PointCloud<pcl::PointXYZ> points;
-    for (std::size_t i = 0; i < cloud.size(); ++i) {
-      points.emplace_back(cloud.x[i], cloud.y[i], cloud.z[i]);
-    }
-    pcl::toPCLPointCloud2(points, blob);
-  } else {
-    pcl::PointCloud<pcl::PointXYZI> points;
-    for (std::size_t i = 0; i < cloud.size(); ++i) {
-      points.emplace_back(cloud.x[i], cloud.y[i], cloud.z[i], cloud.intensity[i]);
-    }
-    pcl::toPCLPointCloud2(points, blob);
-  }
+  const bool is_near = cloud.origin.isZero(0);
   WriteThenRename(path, [&](const std::filesystem::path& part) {
-    const QuietPcl quiet;
-    return pcl::PLYWriter().writeBinary(part.string(), blob, Eigen::Vector4f::Zero(),
-                                        Eigen::Quaternionf::Identity(), false) == 0;
+    std::ofstream out(part, std::ios::binary);
+    out << HeaderOf(cloud, is_near ? "float" : "double");
+    for (std::size_t i = 0; i < cloud.size(); ++i) {
+      WritePoint(cloud, i, is_near, &out);
+    }
+    out.close();
+    return out.good();
   });
 }
 

@@ -3,17 +3,23 @@
 #define ICPSCAPE_SRC_IO_POINT_FILES_H_
 
 #include <filesystem>
+#include <string>
 
 #include "icpscape/cloud/point_cloud.h"
 
 namespace icpscape {
 
-/// Reads a cloud by the file's extension: .bin (KITTI), .pcd or .ply (through PCL; fields x y z,
-/// intensity if there is one). Invalid points are dropped and counted. Throws InputError.
+/// The extension of a file that ReadPointFile takes, in lower case; "" for any other file.
+std::string PointFileKind(const std::filesystem::path& path);
+
+/// Reads a cloud by the file's extension, in upper or lower case: .bin (KITTI's), .pcd, .ply,
+/// .npy, and .csv, .txt and .xyz (see ReadTextPoints). See CloudOf for the fields that are used and
+/// the points that are dropped. Throws InputError.
 PointCloud ReadPointFile(const std::filesystem::path& path, DroppedPoints* dropped);
 
-/// Writes x y z (and intensity, if the cloud has it) as binary .ply, through PCL. The file appears
-/// whole or not at all. Throws InputError where it cannot be written.
+/// Writes x y z (and intensity, if the cloud has it) as binary .ply, in the coordinates of the
+/// user: floats, or doubles where the cloud has an origin. The file appears whole or not at all.
+/// Throws InputError where it cannot be written.
 void WritePly(const std::filesystem::path& path, const PointCloud& cloud);
 
 }  // namespace icpscape

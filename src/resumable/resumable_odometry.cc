@@ -4,6 +4,7 @@
 #include <chrono>
 #include <utility>
 
+#include "icpscape/cloud/origin.h"
 #include "icpscape/common/error.h"
 #include "icpscape/io/sha256.h"
 
@@ -69,9 +70,15 @@ void ResumableOdometry::ForScans(std::size_t begin, std::size_t end,
   }
 }
 
-PointCloud ResumableOdometry::Read(std::size_t i) const {
+// Scans of one world stay within one: all have the origin of the first.
+PointCloud ResumableOdometry::Read(std::size_t i) {
   DroppedPoints dropped;
-  return sequence_.scans[i].read(&dropped);
+  PointCloud scan = sequence_.scans[i].read(&dropped);
+  if (i == 0) {
+    origin_ = scan.origin;
+  }
+  MoveOrigin(origin_, &scan);
+  return scan;
 }
 
 // Errors of the odometry do not know which file a scan comes from.

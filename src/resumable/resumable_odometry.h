@@ -39,6 +39,8 @@ class ResumableOdometry {
   void Register(const Progress& progress);
 
   const ScanSequence& sequence() const { return sequence_; }
+  /// What was taken out of all scans: the origin of the first. Poses and map are without it.
+  const Vec3& origin() const { return origin_; }
   /// One for each scan so far.
   const std::vector<FrameRecord>& records() const { return records_; }
   const std::optional<VoxelMap>& map() const { return map_; }
@@ -46,12 +48,13 @@ class ResumableOdometry {
  private:
   void ForScans(std::size_t begin, std::size_t end, const std::function<void(std::size_t)>& take,
                 const Progress& progress);
-  PointCloud Read(std::size_t i) const;
+  PointCloud Read(std::size_t i);
   void NamingTheScan(std::size_t i, const std::function<void()>& use) const;
   void ReplayScan(std::size_t i);
   void RegisterScan(std::size_t i);
 
   ScanSequence sequence_;
+  Vec3 origin_ = Vec3::Zero();
   Journal& journal_;
   std::size_t num_known_;
   Odometry odometry_;

@@ -290,5 +290,52 @@ TEST_F(Api, RefusesOptionsThatAreOutOfRange) {
               HasSubstr("T_reference"));
 }
 
+// Clouds with an origin, and ones that lie far out without: poses are the user's.
+TEST_F(Api, PosesAreInTheCoordinatesOfTheUser) {
+  const Vec3 origin(458000, 5429000, 100);
+  const SE3d G(Mat3::Identity(), origin);
+  const RegisterResult near = Register(*source_, *target_);
+  PointCloud source = *source_, target = *target_;
+  source.origin = target.origin = origin;
+  const RegisterResult far = Register(source, target);
+  const SE3d expected = G * near.T_target_source * G.Inverse();
+  const auto distance = [&](const SE3d& T) { return (T * origin - expected * origin).norm(); };
+  EXPECT_LT(distance(far.T_target_source), 1e-7);
+  EXPECT_LT(distance(far.iterates.back().T_target_source), 1e-7);
+  EXPECT_EQ(far.cost, near.cost);
+  RegisterOptions again;
+  again.T_initial = expected;
+  again.minimizer.max_iterations = 1;
+  EXPECT_LT(distance(Register(source, target, again).iterates.front().T_target_source), 1e-7);
+  // Whole multiples of 1/16 m do not change at 8 km.
+  for (PointCloud* cloud : {&source, &target}) {
+    cloud->origin = Vec3::Zero();
+    for (float& x : cloud->x) {
+      x = std::round(16 * x) / 16;
+    }
+  }
+  const RegisterResult rounded = Register(source, target);
+  for (PointCloud* cloud : {&source, &target}) {
+    for (float& x : cloud->x) {
+      x += 8192;
+    }
+  }
+  const RegisterResult moved = Register(source, target);
+  const SE3d by(Mat3::Identity(), Vec3(8192, 0, 0));
+  const Vec3 there = by * Vec3(0, 0, 0);
+  const SE3d conjugated = by * rounded.T_target_source * by.Inverse();
+  EXPECT_LT((moved.T_target_source * there - conjugated * there).norm(), 1e-4);
+  LandscapeOptions options;
+  options.metrics = {"point_to_plane"};
+  options.curve.samples = 2;
+  const LandscapeResult curve = Landscape(source, target, conjugated, options);
+  EXPECT_LT((curve.Pose(1) * there - conjugated * there).norm(), 1e-7);
+  EXPECT_LT((curve.Pose(0) * there - there).norm(), 1e-7);
+  PairCovarianceOptions covariance;
+  covariance.metrics = {"point_to_plane"};
+  const SE3d T = Covariance(source, target, covariance)[0].T_target_source;
+  EXPECT_LT((T * there - conjugated * there).norm(), 1e-2);
+}
+
 }  // namespace
 }  // namespace icpscape

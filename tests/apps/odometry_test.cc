@@ -225,6 +225,28 @@ TEST_F(OdometryApp, TakesNamesInNaturalOrder) {
             0.05);
 }
 
+// Scans in the coordinates of a map: poses are in these, and so is the map that is written.
+TEST_F(OdometryApp, ScansFarOutKeepTheirWorld) {
+  const Vec3 origin(458000, 5429000, 100);
+  std::filesystem::create_directories(Path("drive"));
+  for (std::size_t i = 0; i < 3; ++i) {
+    PointCloud scan = TheDrive().scans[i];
+    scan.origin = origin;
+    WritePly(Path("drive/" + std::to_string(i) + ".ply"), scan);
+  }
+  const Outcome outcome =
+      RunProgram("odometry", {"--scans=" + Path("drive"), "--out=" + Path("out")});
+  ASSERT_EQ(outcome.code, 0) << outcome.err;
+  const std::vector<SE3d> poses = ReadTrajectory(Path("out/trajectory_tum.txt")).T_world_body;
+  ASSERT_EQ(poses.size(), 3U);
+  const SE3d expected = TheDrive().T_world_lidar[0].Inverse() * TheDrive().T_world_lidar[2];
+  EXPECT_LT((poses[2] * origin - origin - expected.t()).norm(), 0.03);
+  EXPECT_NEAR(std::stod(ReadCsv(Path("out/frames.csv"))[2].at("y_m")), poses[2].t().y(), 1e-6);
+  DroppedPoints dropped;
+  const PointCloud map = ReadPointFile(Path("out/map.ply"), &dropped);
+  EXPECT_LT((map.origin - origin).norm(), 100);
+}
+
 TEST_F(OdometryApp, TakesFoldersOfAnyName) {
   std::filesystem::create_directories(Path("a drive;\nwith = \"signs\""));
   WritePly(Path("a drive;\nwith = \"signs\"/0.ply"), TheDrive().scans[0]);

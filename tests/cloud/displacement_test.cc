@@ -25,6 +25,18 @@ TEST(Displacement, OfTheSensorIsFromWhereItWas) {
   EXPECT_NEAR(MotionOfSensor(source, target, T).rad, M_PI / 2, 1e-12);
 }
 
+TEST(Displacement, OfTheSensorFarOutIsThatOfThePoseOfTheUser) {
+  PointCloud source, target;
+  source.sensor = {3, 0, 2};
+  target.sensor = {0, 1, 2};
+  source.origin = {458000, 5429000, 100};
+  target.origin = {458010, 5429000, 90};
+  const SE3d T(Eigen::AngleAxisd(0.1, Vec3::UnitZ()).toRotationMatrix(), Vec3(0, 1, 0));
+  const Vec3 before = source.origin + source.sensor;
+  const Vec3 after = target.origin + T * source.sensor;
+  EXPECT_NEAR(MotionOfSensor(source, target, T).m, (after - before).norm(), 1e-9);
+}
+
 // The velocity of a point, by differences of where the motion takes it.
 TEST(Displacement, VelocityAboutAPointIsThatOfThePoint) {
   const Vec3 c(30, -20, 4);

@@ -191,8 +191,8 @@ TEST(PointCloud, DropsWhatNoRegistrationCanUse) {
   AddPoint({NAN, 0, 1}, &cloud);
   AddPoint({0, INFINITY, 1}, &cloud);
   AddPoint({0, 0, 1}, &cloud);
-  AddPoint({0, -1e6, 2}, &cloud);     // As far as any coordinate may be ...
-  AddPoint({0, 0, -1.01e6}, &cloud);  // ... and beyond.
+  AddPoint({0, -1e9, 2}, &cloud);     // As far as any coordinate may be ...
+  AddPoint({0, 0, -1.01e9}, &cloud);  // ... and beyond.
   const DroppedPoints dropped = DropInvalidPoints(&cloud);
   EXPECT_EQ(dropped.non_finite, 3U);
   EXPECT_EQ(dropped.zero, 1U);

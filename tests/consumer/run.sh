@@ -9,7 +9,7 @@ shift 2
 examples=$(cd "$(dirname "$0")/../../examples" && pwd)
 work=$(mktemp -d)
 trap 'rm -rf "$work"' EXIT
-others='(^|[^a-z])(lib|l)?(pcl|vtk|embree|crypto|ssl|openssl|nlohmann)'
+others='(^|[^a-z])(lib|l)?(pcl|vtk|embree|crypto|ssl|openssl|nlohmann|lzf)'
 status=0
 refuse() {  # refuse WHAT: fails if its input names a library of io or simulation.
   if sed "s#$work##g" | grep -iE "$others" | sort -u | grep .; then
@@ -20,7 +20,7 @@ refuse() {  # refuse WHAT: fails if its input names a library of io or simulatio
 
 cmake --install "$build" --prefix "$work/prefix" >"$work/install.log"
 hidden=()
-for package in PCL embree OpenSSL nlohmann_json; do
+for package in PCL embree OpenSSL nlohmann_json liblzf; do
   hidden+=("-DCMAKE_DISABLE_FIND_PACKAGE_$package=ON")
 done
 cmake -G Ninja -S "$examples" -B "$work/build" -DCMAKE_PREFIX_PATH="$work/prefix" "${hidden[@]}" \

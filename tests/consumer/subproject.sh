@@ -7,7 +7,7 @@ source_dir=$1 compiler=$2
 work=$(mktemp -d)
 trap 'rm -rf "$work"' EXIT
 hidden=()
-for package in PCL embree OpenSSL nlohmann_json GTest nanoflann; do
+for package in PCL embree OpenSSL nlohmann_json liblzf GTest nanoflann; do
   hidden+=("-DCMAKE_DISABLE_FIND_PACKAGE_$package=ON")
 done
 cmake -G Ninja -S "$(dirname "$0")/subproject" -B "$work" -DICPSCAPE_SOURCE_DIR="$source_dir" \

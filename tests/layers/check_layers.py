@@ -52,11 +52,10 @@ TARGETS = {
     "residuals": ([], ["Eigen"]),
     "adapters": (["residuals"], ["Eigen", "ceres"]),
     "core": (["residuals", "adapters"], ["Eigen", "ceres", "glog", "oneapi", "boost"]),
-    "io": (["residuals", "core"], ["Eigen", "nlohmann", "openssl", "pcl"]),
+    "io": (["residuals", "core"], ["Eigen", "nlohmann", "openssl"]),
     "simulation": (["residuals", "core"], ["Eigen", "oneapi", "embree3"]),
 }
 SYSTEM = ["sys"]  # Headers in folders that are of no library.
-ONE_FILE = {"pcl": "src/io/point_files.cc"}  # All that may know the library.
 
 # Folders whose files must be in a layer.
 TREES = ["tests", "examples", "apps", "src", "residuals"]
@@ -112,8 +111,6 @@ def misuse(file, name, included, folders):
     library = name.split("/")[0]
     if "/" in name and library not in libraries + SYSTEM + OWN:
         return f"includes {name}, which {target} does not use"
-    if ONE_FILE.get(library, str(file)) != str(file):
-        return f"includes {name}, which only {ONE_FILE[library]} may"
     return None
 
 

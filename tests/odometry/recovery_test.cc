@@ -69,8 +69,8 @@ TEST_P(Recovery, FindsALostSensorAgain) {
   for (int i = 0; i < kScans; ++i) {
     const FrameResult result = odometry.Add(HandHeldTurn().scans[static_cast<std::size_t>(i)]);
     recovered += result.recovered ? 1 : 0;
-    const SE3d off = HandHeldTurn().T_first_lidar[static_cast<std::size_t>(i)].Inverse() *
-                     result.T_world_lidar;
+    const SE3d off =
+        HandHeldTurn().T_first_lidar[static_cast<std::size_t>(i)].Inverse() * result.T_world_lidar;
     EXPECT_LT(off.t().norm(), 0.05) << i;
     EXPECT_LT(off.LogRotation().norm(), 0.5 * M_PI / 180) << i;
     if (i < kFirstTurn) {
@@ -98,7 +98,7 @@ TEST_P(Recovery, GoesOnFromReplayedScans) {
 
 INSTANTIATE_TEST_SUITE_P(Modes, Recovery,
                          testing::Values(OdometryMode::kScanToScan, OdometryMode::kScanToMap),
-                         [](const auto& info) { return NameOf(info.param); });
+                         [](const auto& mode) { return NameOf(mode.param); });
 
 TEST(FindStart, SeesThroughATurnAndAGateThatHidesTheWay) {
   const auto prepared = [](int i) {
@@ -107,9 +107,8 @@ TEST(FindStart, SeesThroughATurnAndAGateThatHidesTheWay) {
   const PreparedScan source = prepared(kFirstTurn + 1), target = prepared(kFirstTurn);
   ObjectiveSetOptions gated;
   gated.matching.max_distance_m = 0.01;
-  const std::optional<SE3d> start =
-      FindStart(*source.clouds().points, *target.clouds().points, {"point_to_plane"}, {}, gated,
-                {}, SE3d(), SE3d());
+  const std::optional<SE3d> start = FindStart(*source.clouds().points, *target.clouds().points,
+                                              {"point_to_plane"}, {}, gated, {}, SE3d(), SE3d());
   ASSERT_TRUE(start.has_value());
   const SE3d truth = HandHeldTurn().T_first_lidar[kFirstTurn].Inverse() *
                      HandHeldTurn().T_first_lidar[kFirstTurn + 1];
