@@ -20,8 +20,8 @@ void CheckPairFlags(const std::vector<std::string>& metrics, bool needs_ground_t
 /// --reverse. Prints what was read and dropped, and records inputs and timings. Throws InputError.
 ScanPair ReadPair(Manifest* manifest);
 
-/// --initial: the pose at u = 0, where register starts, as the pair's poses are. Throws UsageError where the predicted pose
-/// is unknown, InputError where its file cannot be read.
+/// --initial: the pose at u = 0, where register starts, as the pair's poses are. Throws UsageError
+/// where the predicted pose is unknown, InputError where its file cannot be read.
 SE3d InitialPose(const ScanPair& pair, Manifest* manifest);
 
 /// Prepares the pair, whose clouds it takes, for the metrics, the rejections of the flags and the
