@@ -4,12 +4,17 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <cmath>
 #include <filesystem>
 #include <nlohmann/json.hpp>
+#include <numeric>
 
 #include "icpscape/io/point_files.h"
 #include "icpscape/io/transform.h"
+#include "icpscape/simulation/simulated_sequence.h"
 #include "tests/apps/apps_fixture.h"
+#include "tests/support/point_file_writer.h"
 #include "tests/support/run_program.h"
 
 namespace icpscape {
@@ -98,6 +103,50 @@ TEST_F(Sources, ADriveIsASourceOfPairs) {
   EXPECT_THAT(outcome.out, HasSubstr("ground truth: exact"));
   ExpectRefusal(RunProgram("register", {"--scene=town", "--out=" + Path("town")}), 1,
                 "no --frame: expected the number of the scan");
+}
+
+// Points in the order in which the lasers fire form no rings, but the field of the file does.
+TEST_F(Sources, RingsOfAFileServeFeatures) {
+  LidarOptions lidar;
+  lidar.azimuth_step_deg = 0.72;
+  const ScanPair pair = SimulatePair("right_turn", 3, lidar, 2);
+  const auto write = [&](const PointCloud& cloud, const std::string& name, bool with_ring) {
+    std::vector<std::size_t> order(cloud.size());
+    std::iota(order.begin(), order.end(), std::size_t{0});
+    // Once around, from the x axis.
+    const auto column = [&](std::size_t i) { return M_PI + std::atan2(-cloud.y[i], -cloud.x[i]); };
+    std::sort(order.begin(), order.end(),
+              [&](std::size_t a, std::size_t b) { return column(a) < column(b); });
+    std::vector<testing_support::TestField> fields = {{"x"}, {"y"}, {"z"}};
+    if (with_ring) {
+      fields.push_back({"ring", 'U', 2});
+    }
+    folder_.Write(name, testing_support::PcdFile(
+                            fields, static_cast<int>(cloud.size()),
+                            [&](const testing_support::TestField& field, int i, int) -> double {
+                              const std::size_t at = order[static_cast<std::size_t>(i)];
+                              return field.name == "ring" ? cloud.ring[at]
+                                                          : cloud.Point(at)[field.name[0] - 'x'];
+                            },
+                            "binary"));
+  };
+  for (const bool with_ring : {false, true}) {
+    write(pair.source, "source.pcd", with_ring);
+    write(pair.target, "target.pcd", with_ring);
+    const Outcome outcome =
+        RunProgram("register", {"--source=" + Path("source.pcd"), "--target=" + Path("target.pcd"),
+                                "--metrics=edge_to_line,planar_to_plane", "--out=" + Path("out"),
+                                "--accept=limit,cycle,undetermined"});
+    if (!with_ring) {
+      ExpectRefusal(outcome, 2, "the points form 1 ring by their azimuth");
+      continue;
+    }
+    ASSERT_EQ(outcome.code, 0) << outcome.err;
+    const SE3d T = ReadTransform(Path("out/T_target_source.txt"));
+    const SE3d off = pair.T_ground_truth->Inverse() * T;
+    EXPECT_LT(off.t().norm(), 0.1);
+    EXPECT_GT(pair.T_ground_truth->t().norm(), 0.4);
+  }
 }
 
 // A scan's normals, the check of the ground truth and the matching share one search.
