@@ -34,11 +34,12 @@ struct Frames {
   SE3d Of(const SE3d& T_target_source) const { return target * T_target_source * source.Inverse(); }
 };
 
-// From half way on, so that the loop has something to do.
+// From half way on, so that the loop has something to do. (The symmetric metric as printed adds up
+// normals of two frames: its value depends on how these are turned.)
 void ExpectConjugatedPoses(const ScanPair& pair, unsigned seed) {
   ResidualSampler sampler(seed);
   const SE3d T_initial = SE3d::Exp(0.5 * pair.T_ground_truth->Log());
-  for (const char* metric : {"point_to_point", "point_to_plane", "symmetric"}) {
+  for (const char* metric : {"point_to_point", "point_to_plane", "symmetric_rotated"}) {
     const Frames frames = {RandomFrame(&sampler), RandomFrame(&sampler)};
     const ScanPair far = frames.Of(pair);
     const SE3d T = Registered(pair.source, pair.target, metric, T_initial);
@@ -57,7 +58,8 @@ void ExpectEqualLandscapes(const ScanPair& pair, unsigned seed) {
   const ScanPair far = frames.Of(pair);
   for (const auto& [metrics, share] :
        {std::pair(std::vector<std::string>{"point_to_point"}, 1e-6),
-        std::pair(std::vector<std::string>{"point_to_plane", "symmetric", "two_plane"}, 1e-4)}) {
+        std::pair(std::vector<std::string>{"point_to_plane", "symmetric_rotated", "two_plane"},
+                  1e-4)}) {
     ExpectEqualCurves(Curves(pair.source, pair.target, metrics, T_0, T_1, PathKind::kGeodesic),
                       Curves(far.source, far.target, metrics, frames.Of(T_0), frames.Of(T_1),
                              PathKind::kGeodesic),
@@ -87,16 +89,22 @@ TEST(Origin, DoesNotMatterToAPathOfTheSensor) {
                          SE3d(Mat3::Identity(), Vec3(-150, 250, 30))};
   ScanPair far = frames.Of(pair);
   const SE3d T_0, T_1 = *pair.T_ground_truth;
-  const auto curves_of_far = [&](PathKind path) {
-    return Curves(far.source, far.target, {"point_to_point"}, frames.Of(T_0), frames.Of(T_1), path);
+  const auto curves_of_far = [&](const char* metric, PathKind path) {
+    return Curves(far.source, far.target, {metric}, frames.Of(T_0), frames.Of(T_1), path);
   };
   for (const PathKind path : {PathKind::kLerpSlerp, PathKind::kBicycle}) {
-    ExpectEqualCurves(Curves(pair.source, pair.target, {"point_to_point"}, T_0, T_1, path),
-                      curves_of_far(path), 1e-6);
+    for (const auto& [metric, share] :
+         {std::pair("point_to_point", 1e-6), std::pair("symmetric", 1e-4)}) {
+      ExpectEqualCurves(Curves(pair.source, pair.target, {metric}, T_0, T_1, path),
+                        curves_of_far(metric, path), share);
+    }
   }
-  const double rmse = curves_of_far(PathKind::kLerpSlerp)[0].points[0].rmse;
+  const auto rmse_of_far = [&] {
+    return curves_of_far("point_to_point", PathKind::kLerpSlerp)[0].points[0].rmse;
+  };
+  const double rmse = rmse_of_far();
   far.source.sensor.setZero();
-  EXPECT_GT(std::abs(curves_of_far(PathKind::kLerpSlerp)[0].points[0].rmse / rmse - 1), 0.1);
+  EXPECT_GT(std::abs(rmse_of_far() / rmse - 1), 0.01);
 }
 
 }  // namespace

@@ -30,8 +30,8 @@ void ExpectInversePoses(const ScanPair& pair) {
   reversed.Reverse();
   EXPECT_LT(Apart(pair.source, reversed.T_ground_truth->Inverse(), *pair.T_ground_truth).m, 1e-12);
   for (const auto& [metric, tolerance_m, tolerance_deg] :
-       {std::tuple("point_to_point", 0.05, 0.1), std::tuple("point_to_plane", 0.02, 0.05),
-        std::tuple("symmetric", 0.01, 0.02)}) {
+       {std::tuple("point_to_point", 0.05, 0.1), std::tuple("point_to_plane", 0.02, 0.15),
+        std::tuple("symmetric", 0.02, 0.1)}) {
     const SE3d T = Registered(pair.source, pair.target, metric, HalfWay(pair));
     const SE3d T_reversed =
         Registered(reversed.source, reversed.target, metric, HalfWay(pair).Inverse());
@@ -95,9 +95,13 @@ TEST(Units, ScaleTheResults) {
   const PointCloud source = InMillimetres(pair.source), target = InMillimetres(pair.target);
   const SE3d T_1 = *pair.T_ground_truth;
   for (const PathKind path : {PathKind::kLerpSlerp, PathKind::kGeodesic}) {
-    ExpectEqualCurves(Curves(pair.source, pair.target, kMetrics, SE3d(), T_1, path),
-                      Curves(source, target, kMetrics, SE3d(), InMillimetres(T_1), path), 1e-6,
-                      1000);
+    for (const auto& [metric, share] :
+         {std::pair("point_to_point", 1e-6), std::pair("point_to_plane", 1e-4),
+          std::pair("symmetric", 1e-4)}) {
+      ExpectEqualCurves(Curves(pair.source, pair.target, {metric}, SE3d(), T_1, path),
+                        Curves(source, target, {metric}, SE3d(), InMillimetres(T_1), path), share,
+                        1000);
+    }
   }
   for (const std::string& metric : kMetrics) {
     const SE3d T = Registered(pair.source, pair.target, metric, HalfWay(pair));
