@@ -94,8 +94,10 @@ PreparedClouds PrepareClouds(PointCloud source, PointCloud target, const PairOpt
   CheckCloud(target, "target");
   DropInvalidPoints(&source);
   DropInvalidPoints(&target);
-  TakeOutOrigin(&source);
-  TakeOutOrigin(&target);
+  for (PointCloud* cloud : {&source, &target}) {
+    TakeOutOrigin(cloud);
+    DropStrays(cloud);
+  }
   ShareOrigin(&source, &target);
   const PairOrigins origins = {source.origin, target.origin};
   return {PreparePair(std::move(source), std::move(target),

@@ -37,7 +37,7 @@ struct PreparedClouds {
 };
 
 /// Two clouds, checked and prepared for the metrics; what the three calls begin with. Points that
-/// no registration can use are dropped: those that are not finite or beyond 1e9 m, and those at 0.
+/// no registration can use are dropped: those that are not finite or 1000 km out, and those at 0.
 /// Normals are estimated and look to PointCloud::sensor; ones in the clouds are replaced. A cloud
 /// that lies more than 1000 m out has its middle taken out, unless it has an origin already.
 ///

@@ -75,6 +75,21 @@ void TakeOutOrigin(PointCloud* cloud) {
   }
 }
 
+std::size_t DropStrays(PointCloud* cloud) {
+  constexpr float kStrayM = 1e6F;
+  std::vector<char> keep(cloud->size());
+  std::size_t dropped = 0;
+  for (std::size_t i = 0; i < cloud->size(); ++i) {
+    keep[i] =
+        std::max({std::abs(cloud->x[i]), std::abs(cloud->y[i]), std::abs(cloud->z[i])}) <= kStrayM;
+    dropped += keep[i] == 0 ? 1 : 0;
+  }
+  if (dropped > 0) {
+    *cloud = cloud->Select(keep);
+  }
+  return dropped;
+}
+
 void ShareOrigin(PointCloud* source, PointCloud* target) {
   if (source->origin == target->origin) {
     return;

@@ -2,6 +2,7 @@
 #ifndef ICPSCAPE_SRC_CLOUD_ORIGIN_H_
 #define ICPSCAPE_SRC_CLOUD_ORIGIN_H_
 
+#include <cstddef>
 #include <vector>
 
 #include "icpscape/cloud/point_cloud.h"
@@ -20,6 +21,10 @@ Vec3 OriginOf(const std::vector<double>& x, const std::vector<double>& y,
 /// Takes the middle out of a cloud that lies far out and has no origin yet. The sensor moves along,
 /// unless it is at 0, where it stands for unknown: then it is in the middle.
 void TakeOutOrigin(PointCloud* cloud);
+
+/// Drops the points beyond 1000 km of the cloud's origin, along an axis: no scan goes so far, and
+/// one such point spoils a fit. Returns how many.
+std::size_t DropStrays(PointCloud* cloud);
 
 /// Moves the clouds of a pair to one origin, where the middle of one stays within kFarM of the
 /// other's origin; the target's comes first. Coordinates of the user do not change.

@@ -80,7 +80,7 @@ struct PointCloud {
 
 /// What a reader left out, and why.
 struct DroppedPoints {
-  std::size_t non_finite = 0;  ///< A coordinate was NaN, infinite or beyond 1e9 m.
+  std::size_t non_finite = 0;  ///< A coordinate was NaN, infinite, or 1000 km out.
   std::size_t zero = 0;        ///< (0, 0, 0), which many sensors write for "no return".
 };
 

@@ -264,10 +264,12 @@ PointCloud CloudOf(const PointTable& table, DroppedPoints* dropped) {
   cloud.x = Floats(p[0], cloud.origin.x());
   cloud.y = Floats(p[1], cloud.origin.y());
   cloud.z = Floats(p[2], cloud.origin.z());
-  if (table.sensor) {
+  // Writers put 0 where they do not know it: far out the middle of the cloud is a better place.
+  if (table.sensor && !table.sensor->isZero(0)) {
     cloud.sensor = *table.sensor - cloud.origin;
   }
   SetOptional(table, keep, &cloud);
+  dropped->non_finite += DropStrays(&cloud);
   return cloud;
 }
 

@@ -73,6 +73,16 @@ TEST(Origin, IsSharedWhereThatIsNear) {
   EXPECT_EQ(map.origin, Vec3(458000, 5429000, 0));
 }
 
+TEST(Origin, PointsFarFromTheOthersAreDropped) {
+  PointCloud cloud;
+  cloud.x = {1, 2, 1.1e6F, 3, 4};
+  cloud.y = {0, 0, 0, -1.1e6F, 0.9e6F};
+  cloud.z = {0, 1, 0, 0, 0};
+  EXPECT_EQ(DropStrays(&cloud), 2U);
+  EXPECT_EQ(cloud.x, (std::vector<float>{1, 2, 4}));
+  EXPECT_EQ(DropStrays(&cloud), 0U);
+}
+
 // By the definition: p_user = origin + p in either frame.
 TEST(Origin, PosesGoToTheUserAndBack) {
   const PairOrigins origins = {{1000, -5000, 3}, {458000, 5429000, 100}};

@@ -19,7 +19,7 @@ using testing_support::SimulatedTurn;
 SE3d RandomFrame(ResidualSampler* sampler) {
   Vec6 xi;
   xi << sampler->Uniform(0.5, 2.5) * sampler->UnitVector(), Vec3::Zero();
-  return SE3d(SE3d::Exp(xi).R(), sampler->Uniform(300, 500) * sampler->UnitVector());
+  return SE3d(SE3d::Exp(xi).R(), sampler->Uniform(100, 250) * sampler->UnitVector());
 }
 
 struct Frames {

@@ -79,11 +79,14 @@ TEST(Permuting, ChangesNothing) {
   }
 }
 
-SE3d InMillimetres(const SE3d& T) { return SE3d(T.R(), 1000 * T.t()); }
-PointCloud InMillimetres(PointCloud cloud) {
+// In millimetres the clouds would lie far out, and have an origin taken out.
+constexpr double kFeet = 1 / 0.3048;
+
+SE3d InFeet(const SE3d& T) { return SE3d(T.R(), kFeet * T.t()); }
+PointCloud InFeet(PointCloud cloud) {
   for (std::vector<float>* values : {&cloud.x, &cloud.y, &cloud.z}) {
     for (float& value : *values) {
-      value *= 1000;
+      value *= static_cast<float>(kFeet);
     }
   }
   return cloud;
@@ -92,22 +95,21 @@ PointCloud InMillimetres(PointCloud cloud) {
 // Lengths in millimetres, gates and stop rules too.
 TEST(Units, ScaleTheResults) {
   const ScanPair& pair = SimulatedTurn();
-  const PointCloud source = InMillimetres(pair.source), target = InMillimetres(pair.target);
+  const PointCloud source = InFeet(pair.source), target = InFeet(pair.target);
   const SE3d T_1 = *pair.T_ground_truth;
   for (const PathKind path : {PathKind::kLerpSlerp, PathKind::kGeodesic}) {
     for (const auto& [metric, share] :
          {std::pair("point_to_point", 1e-6), std::pair("point_to_plane", 1e-4),
           std::pair("symmetric", 1e-4)}) {
       ExpectEqualCurves(Curves(pair.source, pair.target, {metric}, SE3d(), T_1, path),
-                        Curves(source, target, {metric}, SE3d(), InMillimetres(T_1), path), share,
-                        1000);
+                        Curves(source, target, {metric}, SE3d(), InFeet(T_1), path), share, kFeet);
     }
   }
   for (const std::string& metric : kMetrics) {
     const SE3d T = Registered(pair.source, pair.target, metric, HalfWay(pair));
-    const SE3d T_mm = Registered(source, target, metric, InMillimetres(HalfWay(pair)), 1000);
-    const Displacement apart = Apart(source, InMillimetres(T), T_mm);
-    EXPECT_LT(apart.m, 0.1) << metric;
+    const SE3d T_feet = Registered(source, target, metric, InFeet(HalfWay(pair)), kFeet);
+    const Displacement apart = Apart(source, InFeet(T), T_feet);
+    EXPECT_LT(apart.m, 1e-4 * kFeet) << metric;
     EXPECT_LT(apart.rad, 1e-4) << metric;
   }
 }
