@@ -112,7 +112,7 @@ TEST(FrameRecord, ReadsBackNan) {
 TEST(FrameRecord, RefusesGarbage) {
   const std::string good = FormatFrameRecord(Example());
   const std::vector<std::string> words = Split(good, ' ');
-  ASSERT_EQ(words.size(), 1U + 14U + 12U + 12U);
+  ASSERT_EQ(words.size(), 1U + 15U + 12U + 12U);
   const auto refused = [](const std::string& text) {
     return MessageOf([&] { ParseFrameRecord(text, "the place"); }) ==
            "the place: no record of a scan; expected a journal of an odometry.";
@@ -130,13 +130,13 @@ TEST(FrameRecord, RefusesGarbage) {
     shorter.erase(shorter.begin() + static_cast<std::ptrdiff_t>(i));
     EXPECT_TRUE(refused(Join(shorter, " "))) << i;
   }
-  for (std::size_t i = 15; i < words.size(); ++i) {  // Poses.
+  for (std::size_t i = 16; i < words.size(); ++i) {  // Poses.
     std::vector<std::string> changed = words;
     changed[i] = "nan";
     EXPECT_TRUE(refused(Join(changed, " "))) << i;
   }
   // All but rmse, gate_m and the times.
-  for (const std::size_t i : {1U, 2U, 3U, 4U, 5U, 6U, 7U, 8U, 11U, 12U}) {
+  for (const std::size_t i : {1U, 2U, 3U, 4U, 5U, 6U, 7U, 8U, 9U, 12U, 13U}) {
     for (const char* bad : {"nan", "0.5", "-1", "1e300"}) {
       std::vector<std::string> changed = words;
       changed[i] = bad;
@@ -147,7 +147,7 @@ TEST(FrameRecord, RefusesGarbage) {
   changed[1] = "2";  // Neither false nor true.
   EXPECT_TRUE(refused(Join(changed, " ")));
   changed = words;
-  changed[3] = "9";  // There are nine terminations.
+  changed[4] = "9";  // There are nine terminations.
   EXPECT_TRUE(refused(Join(changed, " ")));
   EXPECT_FALSE(refused(good));
 }
