@@ -14,6 +14,7 @@ import csv
 import json
 import math
 import pathlib
+import random
 import statistics
 import subprocess
 import sys
@@ -131,8 +132,7 @@ def wilson(hits, count, z=1.96):
 
 def percent(hits, count):
     low, high = wilson(hits, count)
-    share = 100 * hits / count if count else math.nan
-    return f"{share:.1f} ({100 * low:.1f} to {100 * high:.1f})"
+    return f"{100 * hits / count:.1f} ({100 * low:.1f} to {100 * high:.1f})" if count else "-"
 
 
 def roc(planted, healthy, tolerances):
@@ -204,21 +204,31 @@ def print_within(healthy):
                 percent(within(own, factor, unit), len(own)) for own in by_kind.values()) + " |")
 
 
-def run(program, jobs, chosen, path):
-    """Writes a row for each pair as it comes."""
+def run(program, jobs, every, path):
+    """Writes a row for each pair that the file does not have, as it comes, in mixed order."""
+    there = {key(row) for row in read(path)} if path.exists() else None
+    chosen = [case for case in cases()[::every] if case[1:3] not in (there or ())]
+    random.Random(1).shuffle(chosen)
     path.parent.mkdir(parents=True, exist_ok=True)
-    with open(path, "w", newline="") as file, concurrent.futures.ThreadPoolExecutor(jobs) as pool:
+    with open(path, "a", newline="") as file, concurrent.futures.ThreadPoolExecutor(jobs) as pool:
         writer = csv.DictWriter(file, COLUMNS)
-        writer.writeheader()
+        if there is None:
+            writer.writeheader()
         for row in pool.map(lambda case: judge(program, case), chosen):
             writer.writerow(row)
             file.flush()
 
 
+def key(row):
+    return row["kind"], row["pair"]
+
+
 def read(path):
     with open(path, newline="") as file:
-        return [{**row, "code": int(row["code"]), "named": float(row["named"]),
+        rows = [{**row, "code": int(row["code"]), "named": float(row["named"]),
                  **{name: float(row[name]) for name in NUMBERS}} for row in csv.DictReader(file)]
+    places = {case[1:3]: place for place, case in enumerate(cases())}
+    return sorted(rows, key=lambda row: places[key(row)])
 
 
 def main():
@@ -226,12 +236,13 @@ def main():
     parser.add_argument("--register", default="build/release/bin/icpscape-register")
     parser.add_argument("--jobs", type=int, default=2)
     parser.add_argument("--every", type=int, default=1, help="take each n-th pair only")
-    parser.add_argument("--pairs", default="out/verdict_rates.csv", help="file of the pairs' rows")
-    parser.add_argument("--read", action="store_true", help="read that file and run nothing")
+    parser.add_argument("--pairs", default="out/verdict_rates.csv",
+                        help="file of the pairs' rows; pairs that are there are not run again")
+    parser.add_argument("--read", action="store_true", help="run no more pairs")
     flags = parser.parse_args()
     path = pathlib.Path(flags.pairs)
     if not flags.read:
-        run(flags.register, flags.jobs, cases()[::flags.every], path)
+        run(flags.register, flags.jobs, flags.every, path)
     rows = read(path)
     healthy = [row for row in rows if row["group"] == "healthy"]
     print_kinds(rows)

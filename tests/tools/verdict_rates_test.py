@@ -113,16 +113,19 @@ class PlantedPairs(unittest.TestCase):
             self.assertIn(b"element vertex 2", header)
             self.assertEqual(np.frombuffer(data, "<f4").tolist(), [1, 2, 3.5, 4, 5, 6])
 
-    def test_rows_survive_the_file(self):
+    def test_rows_are_read_in_the_order_of_the_cases(self):
+        cases = verdict_rates.cases()
+        self.assertEqual(len({case[1:3] for case in cases}), len(cases))
         with tempfile.TemporaryDirectory() as folder:
             path = pathlib.Path(folder, "pairs.csv")
-            row = dict.fromkeys(verdict_rates.COLUMNS, "a") | dict.fromkeys(
-                verdict_rates.NUMBERS, math.inf) | {"code": 4, "named": 0.5}
+            rows = [{"group": group, "kind": kind, "pair": pair, "code": 4, "converged": "yes",
+                     "causes": "", "named": 0.5, **dict.fromkeys(verdict_rates.NUMBERS, math.inf)}
+                    for group, kind, pair, _ in (cases[0], cases[5], cases[-1])]
             with open(path, "w", newline="") as file:
                 writer = csv.DictWriter(file, verdict_rates.COLUMNS)
                 writer.writeheader()
-                writer.writerow(row)
-            self.assertEqual(verdict_rates.read(path), [row])
+                writer.writerows(reversed(rows))
+            self.assertEqual(verdict_rates.read(path), rows)
 
 
 if __name__ == "__main__":
