@@ -49,6 +49,15 @@ class Arithmetic(unittest.TestCase):
         self.assertEqual((found["largest_m"], found["norm_m"]), (math.inf, math.inf))
         self.assertEqual(verdict_rates.deviations([])["norm_m"], math.inf)
 
+    def test_displacement_is_that_of_the_centroid(self):
+        source = np.array([[3, 0, 1], [5, 0, 1]])  # Centroid at (4, 0, 1).
+        truth = undetermined_pairs.turn(2, 0.7)
+        truth[:3, 3] = 1, 2, 3
+        quarter = undetermined_pairs.turn(2, math.pi / 2)  # Takes it to (0, 4, 1).
+        off_m, off_deg = verdict_rates.displacement(source, truth, truth @ quarter)
+        self.assertAlmostEqual(off_m, math.sqrt(32))
+        self.assertAlmostEqual(off_deg, 90)
+
     def test_errors_within_deviations(self):
         rows = [{"off_m": 0.02, "norm_m": 0.01}, {"off_m": 0.025, "norm_m": 0.01},
                 {"off_m": 5, "norm_m": math.inf}]
