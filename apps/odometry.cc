@@ -40,6 +40,7 @@ std::string JournalHeader(const ScanSequence& sequence) {
   for (const double time : sequence.times_s) {
     times += Number(time) + " ";
   }
+  times += sequence.times_are_measured ? "measured" : "made up";
   parts.push_back("times=" + Sha256OfText(times));
   std::string header = Join(parts, "; ");
   std::replace(header.begin(), header.end(), '\n', ' ');  // A path may have one, a record not.

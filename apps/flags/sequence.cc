@@ -23,9 +23,10 @@ DEFINE_string(kitti_root, "", "Or: folder of the KITTI odometry data (sequences/
 static const icpscape::FlagMark kitti_root_mark(&FLAGS_kitti_root, icpscape::kAside);
 DEFINE_string(sequence, "00", "KITTI sequence, with --kitti_root.");
 static const icpscape::FlagMark sequence_mark(&FLAGS_sequence, icpscape::kShown);
-DEFINE_string(scans, "",
-              "Or: a folder of .bin, .pcd or .ply scans, or a raw drive of KITTI's (a folder with "
-              "velodyne_points/).");
+DEFINE_string(
+    scans, "",
+    "Or: a folder of .bin, .pcd, .ply or .npy scans, or a raw drive of KITTI's (a folder with "
+    "velodyne_points/).");
 static const icpscape::FlagMark scans_mark(&FLAGS_scans, icpscape::kAside);
 DEFINE_string(ground_truth, "",
               "Ground truth of your own scans. With --scans: the trajectory of the lidar, in "

@@ -151,14 +151,22 @@ NamedTrajectory ReportOdometry(const ResumableOdometry& odometry, Run* run) {
   const SE3d Tr = sequence.T_camera_lidar.value_or(SE3d());  // Without a camera: the lidar's poses.
   NamedTrajectory named;
   named.name = sequence.title;
-  named.pair.estimate = KittiPosesOf(lidar.T_world_body, Tr);
+  // Paths and errors are those of the sensor, not of an origin that lies far out.
+  const PairOrigins origins = {odometry.origin(), odometry.origin()};
+  const auto without_origin = [&](std::vector<SE3d> poses) {
+    for (SE3d& T : poses) {
+      T = origins.FromUser(T);
+    }
+    return KittiPosesOf(poses, Tr);
+  };
+  named.pair.estimate = without_origin(lidar.T_world_body);
   if (sequence.times_are_measured) {
     named.pair.times_s = sequence.times_s;
   }
   if (!sequence.T_world_lidar.empty() && sequence.scans.size() > 1) {  // One pose has no error.
-    named.pair.truth = KittiPosesOf(sequence.T_world_lidar, Tr);
+    named.pair.truth = without_origin(sequence.T_world_lidar);
   }
-  WriteKittiTrajectory(run->File("trajectory_kitti.txt"), named.pair.estimate);
+  WriteKittiTrajectory(run->File("trajectory_kitti.txt"), KittiPosesOf(lidar.T_world_body, Tr));
   WriteTumTrajectory(run->File("trajectory_tum.txt"), lidar);
   WriteFrames(sequence, odometry.records(), lidar.T_world_body, run);
   if (odometry.map()) {

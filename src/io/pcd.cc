@@ -3,6 +3,7 @@
 
 #include <lzf.h>
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <cstdint>
@@ -170,13 +171,14 @@ std::string Decompressed(const std::string& place, const std::string& bytes, std
 PointTable BinaryTable(const std::string& place, const std::vector<Field>& fields,
                        std::size_t points, std::size_t begin, bool is_compressed,
                        std::string bytes) {
+  constexpr std::size_t kMost = std::size_t{1} << 40;
   std::size_t record = 0;
   for (const Field& field : fields) {
-    record += field.count * BytesOf(field.type);
+    record += std::min(field.count * BytesOf(field.type), kMost);
+    record = std::min(record, kMost);  // No sum of theirs wraps around.
   }
   const std::size_t left = bytes.size() - begin;
-  constexpr std::size_t kMost = std::size_t{1} << 40;
-  if (record > kMost ||
+  if (record == 0 || record == kMost ||
       (is_compressed ? points > kMost / record : left % record != 0 || left / record != points)) {
     Refuse(place, std::to_string(left) + " bytes follow the header",
            std::to_string(points) + " points of " + std::to_string(record) + " bytes");

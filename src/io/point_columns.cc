@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "icpscape/io/point_columns.h"
 
+#include <Eigen/Geometry>
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -243,6 +244,17 @@ bool IsUsed(std::string_view name) {
          std::any_of(kNormal.begin(), kNormal.end(), is_among);
 }
 
+// Whether a sensor at p can have seen the cloud: some writers give a pose on a map to points in the
+// frame of the sensor. A small thing may have been seen from many times its size.
+bool IsNear(const PointCloud& cloud, const Vec3& p) {
+  constexpr double kMostDiagonals = 20;
+  Eigen::AlignedBox3d box;
+  for (std::size_t i = 0; i < cloud.size(); ++i) {
+    box.extend(cloud.Point(i));
+  }
+  return box.exteriorDistance(p) <= kMostDiagonals * box.diagonal().norm();
+}
+
 PointCloud CloudOf(const PointTable& table, DroppedPoints* dropped) {
   for (const Names& names : kPoint) {
     if (Find(table, names) == nullptr) {
@@ -264,12 +276,15 @@ PointCloud CloudOf(const PointTable& table, DroppedPoints* dropped) {
   cloud.x = Floats(p[0], cloud.origin.x());
   cloud.y = Floats(p[1], cloud.origin.y());
   cloud.z = Floats(p[2], cloud.origin.z());
-  // Writers put 0 where they do not know it: far out the middle of the cloud is a better place.
-  if (table.sensor && !table.sensor->isZero(0)) {
-    cloud.sensor = *table.sensor - cloud.origin;
-  }
   SetOptional(table, keep, &cloud);
   dropped->non_finite += DropStrays(&cloud);
+  // Writers put 0 where they do not know it: far out the middle of the cloud is a better place.
+  if (table.sensor && !table.sensor->isZero(0)) {
+    const Vec3 sensor = *table.sensor - cloud.origin;
+    if (IsNear(cloud, sensor)) {
+      cloud.sensor = sensor;
+    }
+  }
   return cloud;
 }
 

@@ -62,23 +62,24 @@ void Sort(std::vector<std::filesystem::path>* scans) {
                  [&](std::size_t i) { return natural[i]; });
 }
 
-// The files that ReadPointFile takes, in order.
+// The files of scans, in order. Files of text may hold anything else.
 std::vector<std::filesystem::path> ScansIn(const std::filesystem::path& folder) {
   std::error_code error;
   std::vector<std::filesystem::path> scans;
   std::set<std::string> kinds;
   for (const auto& entry : std::filesystem::directory_iterator(folder, error)) {
-    const std::string kind = entry.path().extension().string();
+    const std::string kind = PointFileKind(entry.path());
     if (entry.path().filename().string()[0] == '.') {
       continue;  // Hidden, as files are that are not yet whole; see WriteThenRename.
     }
-    if (kind == ".bin" || kind == ".pcd" || kind == ".ply") {
+    if (kind == ".bin" || kind == ".pcd" || kind == ".ply" || kind == ".npy") {
       scans.push_back(entry.path());
       kinds.insert(kind);
     }
   }
   if (error || scans.empty()) {
-    throw InputError(folder.string() + ": no scan; expected a folder of .bin, .pcd or .ply files.");
+    throw InputError(folder.string() +
+                     ": no scan; expected a folder of .bin, .pcd, .ply or .npy files.");
   }
   if (kinds.size() > 1) {
     throw InputError(folder.string() + ": holds " + Join({kinds.begin(), kinds.end()}, " and ") +

@@ -18,13 +18,13 @@ namespace icpscape {
 /// is malformed or ROOT/sequences/SS is no folder.
 ScanSequence OpenKittiSequence(const std::filesystem::path& root, const std::string& sequence);
 
-/// A folder of .bin, .pcd or .ply files, by number where all names are numbers, else in natural
-/// order (see ComesBefore); hidden files, which begin with a dot, are no scans. Or a raw drive of
-/// KITTI's, with velodyne_points/data and, where it is there, velodyne_points/timestamps.txt.
-/// Frames count the scans that are there from 0. The time of a raw scan is the line of its number
-/// (drives can lack scans); a folder has timestamps.txt or times.txt in it, with a line for each
-/// scan, or the times that the names spell (see TimesFromNames). Throws InputError where there is
-/// no scan, more than one kind of file, or a malformed time.
+/// A folder of .bin, .pcd, .ply or .npy files, by number where all names are numbers, else in
+/// natural order (see ComesBefore); hidden files, which begin with a dot, are no scans. Or a raw
+/// drive of KITTI's, with velodyne_points/data and, where it is there,
+/// velodyne_points/timestamps.txt. Frames count the scans that are there from 0. The time of a raw
+/// scan is the line of its number (drives can lack scans); a folder has timestamps.txt or times.txt
+/// in it, with a line for each scan, or the times that the names spell (see TimesFromNames). Throws
+/// InputError where there is no scan, more than one kind of file, or a malformed time.
 ScanSequence OpenScanFolder(const std::filesystem::path& folder);
 
 /// Takes the times of the scans from a file with one for each; see ReadTimesOfScans. Throws

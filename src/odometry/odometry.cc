@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <tuple>
 #include <utility>
 
 #include "icpscape/cloud/scan_sequence.h"
@@ -199,7 +200,8 @@ Vec6 Odometry::SweepVelocity(const PointCloud& scan, const SE3d& motion, double 
     seconds = options_.times_are_measured ? span_s : span_s / kScanPeriodS * sweep_s;
   }
   constexpr double kMostSpans = 10;  // Units of time are a thousandfold apart.
-  if (sweep_s > kMostSpans * seconds) {
+  constexpr double kFewestSweeps = 0.01;
+  if (sweep_s > kMostSpans * seconds || sweep_s < kFewestSweeps * seconds) {
     throw InputError("the times of the points span " + Number(sweep_s) + " s, and the scans are " +
                      Number(seconds) + " s apart; expected seconds.");
   }
@@ -281,11 +283,17 @@ FrameResult Odometry::Add(PointCloud scan, std::optional<double> time_s) {
   result = RegisterNext(as_it_is, PredictedMotion(time_s));
   if (result.registered) {
     const double span_s = motion_.Since(time_s);
+    const auto as_they_were = std::pair(last_, map_);
     DeskewFirst(result.motion, span_s);
-    result = RegisterNext(PrepareOrEmpty(scan, SweepVelocity(scan, result.motion, span_s)),
-                          result.motion);
+    FrameResult again = RegisterNext(
+        PrepareOrEmpty(scan, SweepVelocity(scan, result.motion, span_s)), result.motion);
+    if (again.registered) {
+      result = again;
+      result.deskewed = is_skewed;
+    } else {
+      std::tie(last_, map_) = as_they_were;
+    }
   }
-  result.deskewed = is_skewed;
   Replay(std::move(scan), result, time_s);
   return result;
 }
@@ -293,7 +301,7 @@ FrameResult Odometry::Add(PointCloud scan, std::optional<double> time_s) {
 void Odometry::Replay(PointCloud scan, const FrameResult& result, std::optional<double> time_s) {
   motion_.Check(time_s);
   Vec6 velocity = SweepVelocity(scan, motion_.motion(), motion_.span_s());
-  if (size_ == 1 && first_ && result.registered) {
+  if (size_ == 1 && first_ && result.deskewed) {
     const double span_s = motion_.Since(time_s);
     DeskewFirst(result.motion, span_s);
     velocity = SweepVelocity(scan, result.motion, span_s);

@@ -18,8 +18,9 @@ constexpr int kTurns = 12;
 std::optional<SE3d> FindStart(const SearchableCloud& source, const SearchableCloud& target,
                               const std::vector<std::string>& metrics,
                               const std::vector<double>& weights, ObjectiveSetOptions objective,
-                              const MinimizerOptions& minimizer, const SE3d& T_predicted,
+                              MinimizerOptions minimizer, const SE3d& T_predicted,
                               const SE3d& T_still) {
+  minimizer.reassociation = Reassociation::kEveryStep;
   objective.matching.max_distance_m = 0;
   objective.loss = nullptr;
   const Registration registration({PreparedScan(Thinned(source, kPoints)), PreparedScan(target)},

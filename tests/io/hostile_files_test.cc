@@ -71,6 +71,9 @@ TEST(HostileFiles, PcdBinary) {
               HasSubstr("239 bytes follow the header; expected 20 points of 12 bytes"));
   EXPECT_THAT(message(binary + "x"), HasSubstr("241 bytes follow"));
   EXPECT_THAT(message(PcdHeader(kXyz, 1000000000, "binary") + "123"), HasSubstr("3 bytes follow"));
+  const std::string wide =
+      Replaced(PcdHeader(kXyz, 1, "binary"), "COUNT 1 1 1", "COUNT 1000000000000 1 1000000000000");
+  EXPECT_THAT(message(wide + "123"), HasSubstr("3 bytes follow the header; expected 1 points of"));
   const std::string compressed = PcdFile(kXyz, 20, ValueOf, "binary_compressed");
   const std::size_t begin = compressed.find("DATA binary_compressed\n") + 23;
   const auto with_sizes = [&](double packed, double whole) {

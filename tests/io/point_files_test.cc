@@ -217,6 +217,9 @@ TEST(PointFiles, ViewpointIsTheSensor) {
   const PointCloud cloud = Read(folder.Write("a.pcd", file));
   EXPECT_EQ(cloud.sensor, Vec3(1.5, -2, 3));
   EXPECT_EQ(cloud.Point(0), Vec3(1, 40, 90));
+  // A place on a map is none in the frame of these points.
+  file.replace(file.find("VIEWPOINT 1.5 -2 3"), 18, "VIEWPOINT 458000 5429000 3");
+  EXPECT_EQ(Read(folder.Write("a.pcd", file)).sensor, Vec3(0, 0, 0));
 }
 
 // Times become seconds from the earliest.

@@ -228,6 +228,11 @@ TEST_F(ScanSequenceTest, TakesARangeOfAFolder) {
   EXPECT_THAT(FolderMessage("drive", {3, -1}), HasSubstr("3 scans"));
 }
 
+TEST_F(ScanSequenceTest, TakesExtensionsInUpperCase) {
+  WriteScans("drive", {"0.pcd", "1.PCD", "2.Pcd"});
+  EXPECT_THAT(NamesOf(OpenScanFolder(Path("drive"))), ElementsAre("0.pcd", "1.PCD", "2.Pcd"));
+}
+
 TEST_F(ScanSequenceTest, RefusesFoldersWithoutOneKindOfScan) {
   EXPECT_THAT(FolderMessage("missing"), HasSubstr("missing: no scan; expected a folder of .bin"));
   std::filesystem::create_directories(Path("empty"));

@@ -96,6 +96,18 @@ TEST_P(Recovery, GoesOnFromReplayedScans) {
   }
 }
 
+TEST(RecoveryOfEveryEvaluation, GoesOnWhereAScanIsLost) {
+  OdometryOptions options = Options(OdometryMode::kScanToMap);
+  options.adaptive_gate_m = 0;
+  options.minimizer.reassociation = Reassociation::kEveryEvaluation;
+  options.minimizer.max_iterations = 8;
+  Odometry odometry(options);
+  for (int i = kFirstTurn - 3; i < kFirstTurn + 4; ++i) {
+    EXPECT_NO_THROW(odometry.Add(HandHeldTurn().scans[static_cast<std::size_t>(i)])) << i;
+  }
+  EXPECT_EQ(odometry.size(), 7);
+}
+
 INSTANTIATE_TEST_SUITE_P(Modes, Recovery,
                          testing::Values(OdometryMode::kScanToScan, OdometryMode::kScanToMap),
                          [](const auto& mode) { return NameOf(mode.param); });
