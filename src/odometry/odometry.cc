@@ -285,15 +285,13 @@ FrameResult Odometry::Add(PointCloud scan, std::optional<double> time_s) {
     const double span_s = motion_.Since(time_s);
     const auto as_they_were = std::pair(last_, map_);
     DeskewFirst(result.motion, span_s);
-    FrameResult again = RegisterNext(
-        PrepareOrEmpty(scan, SweepVelocity(scan, result.motion, span_s)), result.motion);
-    if (again.registered) {
-      result = again;
-      result.deskewed = is_skewed;
-    } else {
+    result = RegisterNext(PrepareOrEmpty(scan, SweepVelocity(scan, result.motion, span_s)),
+                          result.motion);
+    if (!result.registered) {  // Then Replay does not de-skew the first either.
       std::tie(last_, map_) = as_they_were;
     }
   }
+  result.deskewed = is_skewed;
   Replay(std::move(scan), result, time_s);
   return result;
 }
@@ -301,7 +299,7 @@ FrameResult Odometry::Add(PointCloud scan, std::optional<double> time_s) {
 void Odometry::Replay(PointCloud scan, const FrameResult& result, std::optional<double> time_s) {
   motion_.Check(time_s);
   Vec6 velocity = SweepVelocity(scan, motion_.motion(), motion_.span_s());
-  if (size_ == 1 && first_ && result.deskewed) {
+  if (size_ == 1 && first_ && result.registered) {
     const double span_s = motion_.Since(time_s);
     DeskewFirst(result.motion, span_s);
     velocity = SweepVelocity(scan, result.motion, span_s);
