@@ -90,7 +90,7 @@ void AddPcl(const BenchmarkPair& pair, const Rows& rows) {
 int Open3dIterations(const Open3dCloud& source, const Open3dCloud& target) {
   SE3d T;
   for (int iterations = 1; iterations < kLoopMaxIterations; ++iterations) {
-    const SE3d next = Open3dPointToPlane(source, target, kLoopGateM, T, 1, 2);
+    const SE3d next = Open3dPointToPlane(source, target, kLoopGateM, T, {1}, 2);
     const SE3d step = T.Inverse() * next;
     T = next;
     if (step.t().norm() < kLoopMinStepM && step.LogRotation().norm() < kLoopMinStepRad) {
@@ -109,7 +109,7 @@ void AddOpen3d(const BenchmarkPair& pair, const Rows& rows) {
       *iterations = Open3dIterations(source, target);
     }
     return LoopResult{
-        Open3dPointToPlane(source, with_normals, kLoopGateM, SE3d(), *iterations, threads)};
+        Open3dPointToPlane(source, with_normals, kLoopGateM, SE3d(), {*iterations}, threads)};
   };
   for (const int threads : {1, 2}) {
     rows.Add(ThreadsName(threads) + "/open3d", LoopTitle(threads), rows.Ours(threads),

@@ -31,8 +31,12 @@ std::size_t Open3dVoxelFilter(const Open3dCloud& /*cloud*/, double /*voxel_size_
   LOG(FATAL) << kAbsent;
 }
 SE3d Open3dPointToPlane(const Open3dCloud& /*source*/, const Open3dCloud& /*target*/,
-                        double /*gate_m*/, const SE3d& /*T_start*/, int /*iterations*/,
+                        double /*gate_m*/, const SE3d& /*T_start*/, const Open3dStop& /*stop*/,
                         int /*threads*/) {
+  LOG(FATAL) << kAbsent;
+}
+SE3d Open3dGicp(const Open3dCloud& /*source*/, const Open3dCloud& /*target*/, double /*gate_m*/,
+                const SE3d& /*T_start*/, const Open3dStop& /*stop*/, int /*threads*/) {
   LOG(FATAL) << kAbsent;
 }
 

@@ -5,6 +5,7 @@
 #include <open3d/Open3DConfig.h>
 #include <open3d/geometry/KDTreeFlann.h>
 #include <open3d/geometry/PointCloud.h>
+#include <open3d/pipelines/registration/GeneralizedICP.h>
 #include <open3d/pipelines/registration/Registration.h>
 
 #include "icpscape/common/parallel.h"
@@ -18,6 +19,19 @@ namespace registration = open3d::pipelines::registration;
 struct Open3dCloudData {
   open3d::geometry::PointCloud cloud;
 };
+
+namespace {
+
+registration::ICPConvergenceCriteria Criteria(const Open3dStop& stop) {
+  return {stop.min_change, stop.min_change, stop.iterations};
+}
+
+SE3d PoseOf(const registration::RegistrationResult& result) {
+  const Eigen::Matrix4d& T = result.transformation_;
+  return SE3d(T.topLeftCorner<3, 3>(), T.topRightCorner<3, 1>()).Normalized();
+}
+
+}  // namespace
 
 std::string Open3dVersion() { return OPEN3D_VERSION; }
 
@@ -80,15 +94,19 @@ std::size_t Open3dVoxelFilter(const Open3dCloud& cloud, double voxel_size_m) {
 }
 
 SE3d Open3dPointToPlane(const Open3dCloud& source, const Open3dCloud& target, double gate_m,
-                        const SE3d& T_start, int iterations, int threads) {
+                        const SE3d& T_start, const Open3dStop& stop, int threads) {
   omp_set_num_threads(threads);
-  // No change of its inlier RMSE is small enough to stop it early.
-  const registration::ICPConvergenceCriteria criteria(0, 0, iterations);
-  const Eigen::Matrix4d T =
-      registration::RegistrationICP(source->cloud, target->cloud, gate_m, T_start.Matrix(),
-                                    registration::TransformationEstimationPointToPlane(), criteria)
-          .transformation_;
-  return SE3d(T.topLeftCorner<3, 3>(), T.topRightCorner<3, 1>()).Normalized();
+  return PoseOf(registration::RegistrationICP(
+      source->cloud, target->cloud, gate_m, T_start.Matrix(),
+      registration::TransformationEstimationPointToPlane(), Criteria(stop)));
+}
+
+SE3d Open3dGicp(const Open3dCloud& source, const Open3dCloud& target, double gate_m,
+                const SE3d& T_start, const Open3dStop& stop, int threads) {
+  omp_set_num_threads(threads);
+  return PoseOf(registration::RegistrationGeneralizedICP(
+      source->cloud, target->cloud, gate_m, T_start.Matrix(),
+      registration::TransformationEstimationForGeneralizedICP(), Criteria(stop)));
 }
 
 }  // namespace icpscape

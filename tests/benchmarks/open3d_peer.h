@@ -43,9 +43,20 @@ std::vector<Eigen::Vector3f> Open3dNormals(const Open3dCloud& cloud);
 /// Returns the number of points that are left.
 std::size_t Open3dVoxelFilter(const Open3dCloud& cloud, double voxel_size_m);
 
-/// RegistrationICP, point-to-plane, with this many iterations. The target has normals.
+/// When Open3D's registrations end.
+struct Open3dStop {
+  int iterations;
+  /// Of the fitness, and relative of the inlier RMSE; Open3D's default is 1e-6. 0: never before.
+  double min_change = 0;
+};
+
+/// RegistrationICP, point-to-plane. The target has normals.
 SE3d Open3dPointToPlane(const Open3dCloud& source, const Open3dCloud& target, double gate_m,
-                        const SE3d& T_start, int iterations, int threads);
+                        const SE3d& T_start, const Open3dStop& stop, int threads);
+
+/// RegistrationGeneralizedICP, which estimates the covariances itself.
+SE3d Open3dGicp(const Open3dCloud& source, const Open3dCloud& target, double gate_m,
+                const SE3d& T_start, const Open3dStop& stop, int threads);
 
 }  // namespace icpscape
 

@@ -4,6 +4,7 @@
 #include <pcl/features/normal_3d_omp.h>
 #include <pcl/filters/voxel_grid.h>
 #include <pcl/kdtree/kdtree_flann.h>
+#include <pcl/registration/gicp.h>
 #include <pcl/registration/icp.h>
 #include <pcl/registration/transformation_estimation_point_to_plane_lls.h>
 #include <pcl/search/kdtree.h>
@@ -26,6 +27,15 @@ pcl::PointCloud<pcl::Normal>::Ptr EstimatedNormals(const PclCloud& cloud, int nu
   pcl::PointCloud<pcl::Normal>::Ptr normals(new pcl::PointCloud<pcl::Normal>);
   estimation.compute(*normals);
   return normals;
+}
+
+// The pose where `icp` ends.
+template <class Point>
+SE3d Align(pcl::Registration<Point, Point>* icp, const SE3d& T_start) {
+  pcl::PointCloud<Point> aligned;
+  icp->align(aligned, T_start.Matrix().cast<float>());
+  const Eigen::Matrix4d T = icp->getFinalTransformation().template cast<double>();
+  return SE3d(T.topLeftCorner<3, 3>(), T.topRightCorner<3, 1>()).Normalized();
 }
 
 }  // namespace
@@ -113,10 +123,25 @@ SE3d PclPointToPlane(const PclCloud& source, const PclCloud& target, double gate
   icp.setTransformationEpsilon(min_step_m * min_step_m);
   icp.setTransformationRotationEpsilon(std::cos(min_step_rad));
   icp.setMaximumIterations(50);
-  pcl::PointCloud<Point> aligned;
-  icp.align(aligned);
-  const Eigen::Matrix4d T = icp.getFinalTransformation().cast<double>();
-  return SE3d(T.topLeftCorner<3, 3>(), T.topRightCorner<3, 1>()).Normalized();
+  return Align<Point>(&icp, SE3d());
+}
+
+SE3d PclIcp(const PclCloud& source, const PclCloud& target, const SE3d& T_start, int iterations) {
+  using Point = pcl::PointXYZ;
+  pcl::IterativeClosestPoint<Point, Point> icp;
+  icp.setInputSource(source->points);
+  icp.setInputTarget(target->points);
+  icp.setMaximumIterations(iterations);
+  return Align<Point>(&icp, T_start);
+}
+
+SE3d PclGicp(const PclCloud& source, const PclCloud& target, double gate_m, const SE3d& T_start) {
+  using Point = pcl::PointXYZ;
+  pcl::GeneralizedIterativeClosestPoint<Point, Point> icp;
+  icp.setInputSource(source->points);
+  icp.setInputTarget(target->points);
+  icp.setMaxCorrespondenceDistance(gate_m);
+  return Align<Point>(&icp, T_start);
 }
 
 }  // namespace icpscape

@@ -47,6 +47,13 @@ PointCloud PclVoxelFilter(const PclCloud& cloud, float voxel_size_m);
 SE3d PclPointToPlane(const PclCloud& source, const PclCloud& target, double gate_m,
                      double min_step_m, double min_step_rad);
 
+/// pcl::IterativeClosestPoint, point to point, with pairs of any length, up to this many steps; it
+/// ends earlier by its default rules.
+SE3d PclIcp(const PclCloud& source, const PclCloud& target, const SE3d& T_start, int iterations);
+
+/// pcl::GeneralizedIterativeClosestPoint with all else at its defaults.
+SE3d PclGicp(const PclCloud& source, const PclCloud& target, double gate_m, const SE3d& T_start);
+
 /// The landscape as one writes it first: for every pose a transformed cloud, and a search for every
 /// point; one thread, one metric. Returns an RMSE per pose. The source holds the metric's points:
 /// edge or planar ones for edge_to_line and planar_to_patch.
