@@ -136,7 +136,7 @@ def wilson(hits, count, z=1.96):
     share, spread = hits / count, z * z / count
     center = (share + spread / 2) / (1 + spread)
     half = z / (1 + spread) * math.sqrt(share * (1 - share) / count + spread / count / 4)
-    return center - half, center + half
+    return max(center - half, 0.0), min(center + half, 1.0)
 
 
 def percent(hits, count):
