@@ -152,10 +152,11 @@ Odometry::Registration Odometry::RegisterToMap(const PreparedScan& source, const
 }
 
 bool Odometry::IsLost(const MinimizerSummary& summary) const {
-  // An objective that is slow to converge ends at the limit as well, but with pairs as usual.
-  constexpr double kUnusual = 2;
-  return !summary.Usable() || (summary.termination == Termination::kMaxIterations && usual_rmse_ &&
-                               summary.iterates.back().rmse > kUnusual * *usual_rmse_);
+  // An objective that is slow to converge ends at the limit as well, but with pairs as usual. One
+  // that converges to a wrong pose is told by its pairs alone.
+  const double unusual = summary.termination == Termination::kMaxIterations ? 2 : 5;
+  return !summary.Usable() ||
+         (usual_rmse_ && summary.iterates.back().rmse > unusual * *usual_rmse_);
 }
 
 bool Odometry::MapsNow() const {
@@ -329,7 +330,8 @@ void Odometry::Finish(PreparedScan scan, const FrameResult& result, std::optiona
     T_last_previous_ = T_last_previous_ * result.motion;
   }
   if (result.registered && result.converged) {
-    usual_rmse_ = result.rmse;
+    // It follows where the surroundings change, but not one wrong pose.
+    usual_rmse_ = usual_rmse_ ? std::min(result.rmse, 2 * *usual_rmse_) : result.rmse;
   }
   T_world_last_ = result.T_world_lidar;
   motion_.Add(result.motion, time_s);

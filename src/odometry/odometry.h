@@ -102,10 +102,10 @@ struct FrameResult {
 /// registration does not see (JudgePose over at most kJudgedPoints points) get the predicted
 /// motion. A scan that ended at the limit of steps is left out of the map as well.
 ///
-/// A scan is lost where it has no pose, or ended at the limit with an RMSE beyond twice that of the
-/// last scan that converged. It is then registered again from another start (FindStart; not with
-/// metrics of edge and planar points), and that pose is taken where it converges. Bit-identical
-/// for any number of threads.
+/// A scan is lost where it has no pose, or an RMSE beyond five times that of the last scan that
+/// converged, or beyond twice that where it ended at the limit. It is then registered again from
+/// another start (FindStart; not with metrics of edge and planar points), and that pose is taken
+/// where it converges. Bit-identical for any number of threads.
 ///
 /// Scans whose points have times are de-skewed by the velocity of the motion before. The first two
 /// have none before them: they are registered as they are, and once more after both were de-skewed
@@ -159,7 +159,7 @@ class Odometry {
   SE3d T_world_last_;                 // Of the last of all, as the next.
   MotionModel motion_;
   std::optional<PointCloud> first_;   // Until the second, if its points have times.
-  std::optional<double> usual_rmse_;  // Of the last scan that converged.
+  std::optional<double> usual_rmse_;  // Of the last scan that converged, at most doubled.
   AdaptiveGate gate_;
   LocalMap map_;
 };
