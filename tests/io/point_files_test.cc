@@ -7,9 +7,7 @@
 #include <pcl/io/pcd_io.h>
 #include <pcl/io/ply_io.h>
 #include <pcl/point_types.h>
-#include <sys/resource.h>
 
-#include <csignal>
 #include <random>
 
 #include "icpscape/common/error.h"
@@ -263,29 +261,6 @@ TEST(PointFiles, CoordinatesOfAPictureAreNoTimes) {
   EXPECT_EQ(times({{"s"}, {"time"}}), static_cast<std::size_t>(kPoints));
 }
 
-// On a full disk, which a limit on the size of files stands for.
-TEST(PointFiles, APlyFileIsWholeOrNotThere) {
-  const TemporaryFolder folder;
-  const PointCloud cloud = testing_support::Room(3000, 1);
-  WritePly(folder.path() / "old.ply", testing_support::Room(10, 1));
-  rlimit before;
-  getrlimit(RLIMIT_FSIZE, &before);
-  const auto old_handler = std::signal(SIGXFSZ, SIG_IGN);
-  const rlimit little = {20000, before.rlim_max};
-  setrlimit(RLIMIT_FSIZE, &little);
-  const std::string message =
-      MessageOf<InputError>([&] { WritePly(folder.path() / "new.ply", cloud); });
-  const std::string again =
-      MessageOf<InputError>([&] { WritePly(folder.path() / "old.ply", cloud); });
-  setrlimit(RLIMIT_FSIZE, &before);
-  std::signal(SIGXFSZ, old_handler);
-  EXPECT_THAT(message, HasSubstr("new.ply: cannot be written"));
-  EXPECT_THAT(again, HasSubstr("old.ply: cannot be written"));
-  EXPECT_EQ(Read(folder.path() / "old.ply").size(), 10U);
-  const auto files = std::filesystem::directory_iterator(folder.path());
-  EXPECT_EQ(std::distance(begin(files), end(files)), 1);
-}
-
 TEST(PointFiles, RefusesFieldsThatAreNot) {
   const TemporaryFolder folder;
   const auto message = [&](const std::vector<TestField>& fields,
@@ -351,22 +326,6 @@ TEST(PointFiles, AgreesWithPcl) {
   cloud.intensity.assign(1000, 0.5F);
   WritePly(path("ours.ply"), cloud);
   expect_the_points("ours.ply");
-}
-
-TEST(PointFiles, WritesDoublesFarOut) {
-  const TemporaryFolder folder;
-  PointCloud cloud;
-  testing_support::AddPoint({0.25, -1.5, 3}, &cloud);
-  testing_support::AddPoint({0.5, 1.5, -3}, &cloud);
-  cloud.origin = {458000, 5429000, 100};
-  WritePly(folder.path() / "far.ply", cloud);
-  const std::string file = testing_support::ReadFile(folder.path() / "far.ply");
-  EXPECT_THAT(file, HasSubstr("element vertex 2\nproperty double x\n"));
-  const auto bytes = file.substr(file.find("end_header\n") + 11);
-  ASSERT_EQ(bytes.size(), 48U);
-  double values[6];
-  std::memcpy(values, bytes.data(), sizeof values);
-  EXPECT_THAT(values, testing::ElementsAre(458000.25, 5428998.5, 103, 458000.5, 5429001.5, 97));
 }
 
 }  // namespace
