@@ -88,7 +88,7 @@ class Parser {
     if (end == std::string_view::npos) {
       Refuse();
     }
-    const std::string string(text_.substr(0, end));
+    std::string string(text_.substr(0, end));
     text_.remove_prefix(end + 1);
     return string;
   }
